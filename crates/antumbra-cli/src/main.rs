@@ -1,0 +1,2 @@
+//! Command line of Antumbra.
+fn main() {}

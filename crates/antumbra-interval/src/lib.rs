@@ -1,0 +1,3 @@
+//! Sound interval arithmetic.
+mod interval;
+pub use interval::Interval;

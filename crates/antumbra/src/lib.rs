@@ -1,0 +1,5 @@
+//! The heart of Antumbra: from a formula to a certified picture.
+#![forbid(unsafe_code)]
+
+pub mod expr;
+pub mod tape;

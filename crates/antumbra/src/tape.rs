@@ -1,0 +1,59 @@
+//! A formula as a flat list of operations on slots: what every evaluator runs.
+use crate::expr::{Axis, Binary, Unary};
+use antumbra_interval::Interval;
+
+/// What a [`Clause`] computes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Op {
+    /// The constant of that index in [`Tape::constants`].
+    Constant(u32),
+    /// A coordinate.
+    Axis(Axis),
+    /// An operator on slot `a`.
+    Unary(Unary),
+    /// Integer power of slot `a`, as IEEE 1788 `pown`: `a^0 = 1` everywhere; for a negative exponent undefined at `a = 0`.
+    Powi(i32),
+    /// An operator on slots `a`, `b`.
+    Binary(Binary),
+}
+
+/// One operation: `slot[out] = op(slot[a], slot[b])`. Unused operands are 0.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Clause {
+    /// Operation.
+    pub op: Op,
+    /// Slot that receives the result; it may be the same as `a` or `b`.
+    pub out: u32,
+    /// First operand slot.
+    pub a: u32,
+    /// Second operand slot.
+    pub b: u32,
+}
+
+/// A compiled formula: clauses in execution order; the last clause's `out` slot holds the value of the formula.
+#[derive(Clone, Debug)]
+pub struct Tape {
+    clauses: Vec<Clause>,
+    constants: Vec<Interval>,
+    slots: usize,
+}
+
+impl Tape {
+    /// Operations in execution order, never empty.
+    #[must_use]
+    pub fn clauses(&self) -> &[Clause] {
+        &self.clauses
+    }
+
+    /// Enclosures of the exact constants.
+    #[must_use]
+    pub fn constants(&self) -> &[Interval] {
+        &self.constants
+    }
+
+    /// How many slots an evaluator needs.
+    #[must_use]
+    pub fn slots(&self) -> usize {
+        self.slots
+    }
+}
