@@ -23,6 +23,8 @@ impl Interval {
     pub const EMPTY: Self = Self { lo: f64::INFINITY, hi: f64::NEG_INFINITY };
     /// Every real number.
     pub const ENTIRE: Self = Self { lo: f64::NEG_INFINITY, hi: f64::INFINITY };
+    /// Every number `>= 0`.
+    pub const NON_NEGATIVE: Self = Self { lo: 0.0, hi: f64::INFINITY };
     /// Just 0.
     pub const ZERO: Self = Self { lo: 0.0, hi: 0.0 };
     /// Just 1.

@@ -1,5 +1,13 @@
 //! The heart of Antumbra: from a formula to a certified picture.
 #![forbid(unsafe_code)]
 
+pub mod eval;
 pub mod expr;
+pub mod geom;
+pub mod grid;
+pub mod paper;
+pub mod render;
+pub mod scene;
 pub mod tape;
+pub mod trace;
+pub mod verdict;

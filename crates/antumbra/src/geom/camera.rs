@@ -1,0 +1,126 @@
+//! The camera and its film.
+use super::{Beam, Box3, Vec3};
+use antumbra_interval::Interval;
+
+/// A perspective camera. The exact numbers stored here *are* the camera of which a picture speaks: the ray through the
+/// film coordinates `(x, y)` in `[-1, 1]^2` has direction `forward + x right + y up` and leaves from `eye`; `forward`
+/// reaches the image plane at `t = 1`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    /// Where all rays start.
+    pub eye: Vec3,
+    /// Unit vector (rounded) of the view.
+    pub forward: Vec3,
+    /// From the middle of the film to its right edge.
+    pub right: Vec3,
+    /// From the middle of the film to its upper edge.
+    pub up: Vec3,
+}
+
+impl Camera {
+    /// A camera at `eye` that looks at `target`, the z axis upwards, with the full angle `fov_deg` (degrees) over the
+    /// shorter side of a film of `width / height = aspect`. The image's right is `forward x up`.
+    #[must_use]
+    pub fn look_at(eye: Vec3, target: Vec3, fov_deg: f64, aspect: f64) -> Self {
+        let forward = (target - eye).normalized();
+        let vertical = Vec3::new(0.0, 0.0, 1.0);
+        let side = forward.cross(vertical).normalized();
+        // Straight up or down: any horizontal direction will do.
+        let side = if side == Vec3::default() { Vec3::new(1.0, 0.0, 0.0) } else { side };
+        let half = tan_deg(0.5 * fov_deg);
+        let (half_x, half_y) = if aspect >= 1.0 { (half * aspect, half) } else { (half, half / aspect) };
+        Self { eye, forward, right: side * half_x, up: side.cross(forward) * half_y }
+    }
+}
+
+/// Tangent of an angle in degrees.
+fn tan_deg(angle_deg: f64) -> f64 {
+    core_math::tan(angle_deg.to_radians())
+}
+
+/// The film: which rays belong to which pixel. Row 0 is at the top.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Film {
+    /// Where the rays come from.
+    pub camera: Camera,
+    /// Pixels per row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+}
+
+impl Film {
+    /// Enclosure of the film coordinate of pixel edge number `k` of `n`: `2k/n - 1`.
+    fn edge(k: usize, n: usize) -> Interval {
+        Interval::point(2.0 * k as f64) / Interval::point(n as f64) - Interval::ONE
+    }
+
+    /// Enclosure of the directions of all rays with film coordinates in `x` and `y`.
+    fn directions(&self, x: Interval, y: Interval) -> Box3 {
+        let c = &self.camera;
+        Box3(std::array::from_fn(|i| {
+            Interval::point(c.forward[i]) + (x * Interval::point(c.right[i]) + y * Interval::point(c.up[i]))
+        }))
+    }
+
+    /// Film coordinates of the pixels `columns x rows` (half-open ranges), y upwards.
+    #[must_use]
+    pub fn window(&self, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> [Interval; 2] {
+        [
+            Self::edge(columns.start, self.width).hull(Self::edge(columns.end, self.width)),
+            -Self::edge(rows.start, self.height).hull(Self::edge(rows.end, self.height)),
+        ]
+    }
+
+    /// The beam of one pixel: it contains every ray of the pixel's area (paper, section 3).
+    #[must_use]
+    pub fn beam(&self, column: usize, row: usize) -> Beam {
+        let [x, y] = self.window(column..column + 1, row..row + 1);
+        Beam { origin: self.camera.eye, direction: self.directions(x, y) }
+    }
+
+    /// The beam of the pixel's centre ray, thin up to rounding.
+    #[must_use]
+    pub fn ray(&self, column: usize, row: usize) -> Beam {
+        let middle =
+            |k: usize, n: usize| Interval::point((2 * k + 1) as f64) / Interval::point(n as f64) - Interval::ONE;
+        let (x, y) = (middle(column, self.width), -middle(row, self.height));
+        Beam { origin: self.camera.eye, direction: self.directions(x, y) }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn rays_lie_inside_the_beams_of_their_pixels() {
+        let camera = Camera::look_at(Vec3::new(4.0, -2.0, 2.0), Vec3::default(), 30.5, 1.0);
+        let film = Film { camera, width: 37, height: 37 };
+        for (column, row) in [(0, 0), (36, 36), (18, 18), (3, 29)] {
+            let (beam, ray) = (film.beam(column, row), film.ray(column, row));
+            for axis in 0..3 {
+                let (b, r) = (beam.direction[axis], ray.direction[axis]);
+                assert!(b.lo() <= r.lo() && r.hi() <= b.hi() && r.width() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn the_image_is_upright_and_not_mirrored() {
+        // From -y towards the origin: +x is to the right, +z up.
+        let camera = Camera::look_at(Vec3::new(0.0, -3.0, 0.0), Vec3::default(), 90.0, 2.0);
+        assert!(camera.right[0] > 0.0 && camera.up[2] > 0.0);
+        assert!((camera.up.length() - 1.0).abs() < 1e-12, "the angle spans the shorter side");
+        assert!((camera.right.length() - 2.0).abs() < 1e-12);
+        let film = Film { camera, width: 4, height: 2 };
+        let d = film.ray(3, 0).direction.mid();
+        assert!(d[0] > 0.0 && d[2] > 0.0, "the last pixel of the top row is up and right");
+    }
+
+    #[test]
+    fn looking_straight_down_works() {
+        let camera = Camera::look_at(Vec3::new(0.0, 0.0, 5.0), Vec3::default(), 40.0, 1.0);
+        assert!(camera.right.length() > 0.1 && camera.up.length() > 0.1);
+    }
+}

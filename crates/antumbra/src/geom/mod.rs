@@ -1,0 +1,10 @@
+//! Points, boxes, beams, rectangles of light, the camera. This room knows no formula.
+mod beam;
+mod camera;
+mod rect;
+mod vector;
+
+pub use beam::{Beam, section};
+pub use camera::{Camera, Film};
+pub use rect::Rect;
+pub use vector::{Box3, Vec3};

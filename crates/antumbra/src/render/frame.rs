@@ -1,0 +1,81 @@
+//! The picture as data.
+use super::spec::Error;
+use crate::verdict::{Reason, Verdict};
+
+/// Every plane of a picture. Row 0 is at the top; element `row * width + column` belongs to a pixel.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Frame {
+    /// Pixels per row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// What is known of the pixel: 0 proved empty, 1 proved hit, 2 and more undecided, by [`Frame::verdict_code`];
+    /// 255 not yet looked at.
+    pub verdict: Vec<u8>,
+    /// No ray of the pixel meets anything before this parameter (distance along the view axis from the eye); NaN where
+    /// the pixel is empty.
+    pub t_lo: Vec<f64>,
+    /// The meeting, if it is one, begins at or before this parameter; NaN where the pixel is empty.
+    pub t_hi: Vec<f64>,
+    /// Unit normal, turned to the viewer; 0 where the pixel is empty. Rounded, not certified.
+    pub normal: Vec<[f32; 3]>,
+    /// Lower bound of the visible fraction of the light; NaN where the pixel is empty. The paper's methods give one
+    /// number for both bounds: 1 - shadow index.
+    pub visible_lo: Vec<f64>,
+    /// Upper bound of it.
+    pub visible_hi: Vec<f64>,
+    /// Cosine between normal and the direction to the light's centre; 0 where the pixel is empty.
+    pub facing: Vec<f32>,
+    /// Evaluations of inclusion functions that the pixel took.
+    pub cost: Vec<u32>,
+    /// Colour, linear, Rec. 709 primaries, about 0 to 1. Not certified.
+    pub rgb: Vec<[f32; 3]>,
+}
+
+impl Frame {
+    /// The code of a pixel that nobody has looked at yet.
+    pub const UNSEEN: u8 = 255;
+
+    /// A frame of unseen pixels.
+    ///
+    /// # Errors
+    /// [`Error::Memory`] if it does not fit.
+    pub fn new(width: usize, height: usize) -> Result<Self, Error> {
+        fn plane<T: Clone>(n: usize, value: T) -> Option<Vec<T>> {
+            let mut v = Vec::new();
+            v.try_reserve_exact(n).ok()?;
+            v.resize(n, value);
+            Some(v)
+        }
+        let n = width * height;
+        let make = || {
+            Some(Self {
+                width,
+                height,
+                verdict: plane(n, Self::UNSEEN)?,
+                t_lo: plane(n, f64::NAN)?,
+                t_hi: plane(n, f64::NAN)?,
+                normal: plane(n, [0.0; 3])?,
+                visible_lo: plane(n, f64::NAN)?,
+                visible_hi: plane(n, f64::NAN)?,
+                facing: plane(n, 0.0)?,
+                cost: plane(n, 0)?,
+                rgb: plane(n, [0.0; 3])?,
+            })
+        };
+        make().ok_or(Error::Memory { width, height, bytes: n * 65 })
+    }
+
+    /// The code of a verdict in the plane [`Frame::verdict`]: 0 no, 1 yes, 2 resolution, 3 touching, 4 domain, 5 budget.
+    #[must_use]
+    pub const fn verdict_code(verdict: Verdict) -> u8 {
+        match verdict {
+            Verdict::No => 0,
+            Verdict::Yes => 1,
+            Verdict::Unknown(Reason::Resolution) => 2,
+            Verdict::Unknown(Reason::Touching) => 3,
+            Verdict::Unknown(Reason::Domain) => 4,
+            Verdict::Unknown(Reason::Budget) => 5,
+        }
+    }
+}

@@ -1,0 +1,14 @@
+//! From a scene to a frame: tiles, threads, cancelling, progress, statistics.
+//!
+//! *What* to draw is a [`RenderSpec`], *how* to run a [`RunSpec`]. A [`Renderer`] is asked to `refine` for a while, and
+//! shows its `frame` and `stats` at any time: command line, viewer, web page and Python use nothing else.
+mod frame;
+mod renderer;
+mod shade;
+mod spec;
+mod stats;
+
+pub use frame::Frame;
+pub use renderer::Renderer;
+pub use spec::{Error, Method, RenderSpec, RunSpec};
+pub use stats::Stats;

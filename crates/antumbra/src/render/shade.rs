@@ -1,0 +1,64 @@
+//! Colours. Nothing here is certified; everything that is goes in as numbers and comes out as light.
+use crate::geom::{Film, Vec3};
+
+/// What is known of a lit point.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Point {
+    /// Where it is.
+    pub(super) position: Vec3,
+    /// Unit normal, turned to the viewer.
+    pub(super) normal: Vec3,
+    /// Whether the viewer is on the side where f > 0.
+    pub(super) outside: bool,
+    /// Whether it belongs to the floor.
+    pub(super) floor: bool,
+    /// Fraction of the light that is visible.
+    pub(super) visible: f64,
+}
+
+/// Outside of a surface: warm clay. Inside: slate blue.
+const OUTSIDE: [f64; 3] = [0.80, 0.43, 0.20];
+const INSIDE: [f64; 3] = [0.16, 0.36, 0.50];
+const FLOOR: [f64; 3] = [0.62, 0.62, 0.64];
+/// Colour of the light, times its strength over pi.
+const KEY: [f64; 3] = [0.95, 0.92, 0.86];
+/// Fill light from above and from below.
+const SKY: [f64; 3] = [0.20, 0.23, 0.28];
+const GROUND: [f64; 3] = [0.10, 0.09, 0.085];
+
+/// The backdrop behind everything: a soft grey, lighter around the middle.
+pub(super) fn backdrop(film: &Film, column: f64, row: f64) -> [f64; 3] {
+    let (w, h) = (film.width as f64, film.height as f64);
+    let (x, y) = ((column - 0.5 * w) / w.min(h), (row - 0.45 * h) / w.min(h));
+    let fall = 1.0 / (1.0 + 1.1 * (x * x + y * y));
+    [0.60, 0.63, 0.67].map(|c| c * fall)
+}
+
+/// The colour of a point under a light at `light`, seen from `eye`.
+pub(super) fn shade(p: &Point, light: Vec3, eye: Vec3, backdrop: [f64; 3], scale: f64) -> [f64; 3] {
+    let to_light = (light - p.position).normalized();
+    let to_eye = (eye - p.position).normalized();
+    let cosine = p.normal.dot(to_light).max(0.0);
+    let half = (to_light + to_eye).normalized();
+    let gloss = if p.floor { 0.0 } else { 0.22 * core_math::pow(p.normal.dot(half).max(0.0), 48.0) };
+    let up = 0.5 + 0.5 * p.normal[2];
+    let base = match (p.floor, p.outside) {
+        (true, _) => FLOOR,
+        (false, true) => OUTSIDE,
+        (false, false) => INSIDE,
+    };
+    let color: [f64; 3] = std::array::from_fn(|i| {
+        let fill = GROUND[i] + (SKY[i] - GROUND[i]) * up;
+        // A thin rim of light where the surface turns away gives shape to the shadows.
+        let rim = 0.10 * (1.0 - p.normal.dot(to_eye).abs()).powi(3);
+        let gloss = if cosine > 0.0 { gloss } else { 0.0 };
+        base[i] * (p.visible * KEY[i] * cosine + fill) + p.visible * gloss * KEY[i] + rim * SKY[i]
+    });
+    if !p.floor {
+        return color;
+    }
+    // The endless floor melts into the backdrop.
+    let far = (p.position - eye).length() / (8.0 * scale);
+    let fade = (far - 0.6).clamp(0.0, 1.0);
+    std::array::from_fn(|i| color[i] + (backdrop[i] - color[i]) * fade)
+}

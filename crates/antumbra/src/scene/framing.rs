@@ -1,0 +1,136 @@
+//! Where is the surface, and from where does one look at it?
+use super::{Object, Scene, View};
+use crate::eval::{Inclusion, Workspace};
+use crate::geom::{Box3, Rect, Vec3};
+use antumbra_interval::Interval;
+
+/// Where a surface lies.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Extent {
+    /// Proved: no part of it is outside this box (within the searched cube of half side 2^20).
+    Bounded(Box3),
+    /// It could not be shut in: it runs off to far away, or only seems to. The box is a good part to look at.
+    Open(Box3),
+    /// Proved: it has no point at all in the searched cube.
+    Nowhere,
+}
+
+impl Extent {
+    /// The box to draw.
+    #[must_use]
+    pub fn clip(&self) -> Box3 {
+        match self {
+            Self::Bounded(b) | Self::Open(b) => *b,
+            Self::Nowhere => Box3::cube(1.0),
+        }
+    }
+}
+
+/// Cells along each side of one round of the search.
+const CELLS: usize = 16;
+/// Half the side of the cube that is searched at first.
+const FARTHEST: f64 = (1 << 20) as f64;
+/// Half the side of the part of an open surface that is drawn.
+const OPEN_HALF: f64 = 3.0;
+
+/// Encloses the surface `{f = 0}` by rounds of 16^3 cells: the hull of the cells that may hold a zero is the next
+/// round's region, until it no longer shrinks. About ten rounds, some 50,000 evaluations.
+#[must_use]
+pub fn extent(f: &dyn Inclusion) -> Extent {
+    let mut work = Workspace::default();
+    let mut region = Box3::cube(FARTHEST);
+    let farthest = region;
+    for round in 0..60 {
+        let Some(hull) = hull_of_zeros(f, region, &mut work) else { return Extent::Nowhere };
+        let hull = hull.intersection(region).unwrap_or(region);
+        if round == 0 && (0..3).any(|i| hull[i].lo() <= farthest[i].lo() || hull[i].hi() >= farthest[i].hi()) {
+            return Extent::Open(Box3::cube(OPEN_HALF));
+        }
+        let shrunk = (0..3).any(|i| hull[i].width() < 0.97 * region[i].width());
+        region = hull;
+        if !shrunk {
+            break;
+        }
+    }
+    Extent::Bounded(region)
+}
+
+/// Hull of the cells of `region` in which f may be zero: by its range, and by the mean value form.
+fn hull_of_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace) -> Option<Box3> {
+    let edge = |axis: usize, k: usize| {
+        let (lo, hi) = (Interval::point(region[axis].lo()), Interval::point(region[axis].hi()));
+        lo + (hi - lo) * (Interval::point(k as f64) / Interval::point(CELLS as f64))
+    };
+    let slab = |axis: usize, k: usize| edge(axis, k).hull(edge(axis, k + 1));
+    let mut hull: Option<Box3> = None;
+    for k in 0..CELLS {
+        for j in 0..CELLS {
+            for i in 0..CELLS {
+                let cell = Box3([slab(0, i), slab(1, j), slab(2, k)]);
+                if f.range(&cell, work).possibly_zero() && mean_value(f, &cell, work).possibly_zero() {
+                    hull = Some(hull.map_or(cell, |h| h.hull(cell)));
+                }
+            }
+        }
+    }
+    hull
+}
+
+/// `f(m) + grad f . (X - m)`, or everything where f may be undefined at m.
+fn mean_value(f: &dyn Inclusion, cell: &Box3, work: &mut Workspace) -> Interval {
+    let mid = cell.mid().to_box();
+    let centre = f.range(&mid, work);
+    let slope = f.gradient(cell, work).partials;
+    if centre.is_empty() || slope.iter().any(|s| s.is_empty() || s.magnitude() == f64::INFINITY) {
+        return Interval::ENTIRE;
+    }
+    (0..3).fold(centre, |sum, i| sum + slope[i] * (cell[i] - mid[i]))
+}
+
+/// A scene around one object: the camera sees its clip box from the front, a little to the right and above; a square
+/// light of a tenth of the picture's width (paper, section 4) hangs above, to the left.
+pub(super) fn scene(name: String, title: String, object: Object) -> Scene {
+    let (centre, half) = (object.clip.mid(), object.clip.half_extent());
+    let radius = half.0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+    let eye = centre + Vec3::new(3.0, -4.0, 3.0) * radius;
+    let light = Rect::horizontal(centre + Vec3::new(-1.0, -2.0, 6.0) * radius, 0.25 * radius);
+    let view = View { eye, target: centre, fov_deg: angle_over(&object.clip, eye, centre) };
+    Scene { name, title, floor_height: object.clip[2].lo() - 0.05 * radius, view, light, objects: vec![object] }
+}
+
+/// The full angle, in degrees, that shows the ellipsoid inside the box and a margin. (Corners of the box are mostly empty.)
+fn angle_over(clip: &Box3, eye: Vec3, centre: Vec3) -> f64 {
+    let distance = (eye - centre).length();
+    let reach = clip.half_extent().length() * 0.78;
+    2.0 * core_math::asin((reach / distance).min(0.9)).to_degrees()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn extent_of(text: &str) -> Extent {
+        extent(Object::parse(text, Box3::cube(1.0)).unwrap().surface.as_ref())
+    }
+
+    #[test]
+    fn bounded_surfaces_are_shut_in_tightly() {
+        for (text, half) in [
+            ("x^2 + y^2 + z^2 = 1", 1.0),
+            ("x^2 + y^2 + z^2 = 10000", 100.0),
+            ("x^4 + y^4 + z^4 - x^2 - y^2 - z^2 + 1/2 = 0", 1.0),
+        ] {
+            let Extent::Bounded(b) = extent_of(text) else { panic!("{text} is bounded") };
+            for axis in 0..3 {
+                assert!(b[axis].hi() >= half && b[axis].hi() < 1.2 * half, "{text}: {:?}", b[axis]);
+            }
+        }
+    }
+
+    #[test]
+    fn open_and_missing_surfaces_are_told_apart() {
+        assert!(matches!(extent_of("z = 0"), Extent::Open(_)));
+        assert!(matches!(extent_of("sin(x) + sin(y) + sin(z) = 0"), Extent::Open(_)));
+        assert_eq!(extent_of("x^2 + y^2 + z^2 + 1 = 0"), Extent::Nowhere);
+    }
+}

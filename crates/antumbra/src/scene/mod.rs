@@ -1,0 +1,66 @@
+//! What is to be drawn: objects, light, camera, colours; the presets; and a framing for any formula.
+mod framing;
+mod object;
+mod presets;
+
+pub use framing::{Extent, extent};
+pub use object::{Error, Object};
+pub use presets::{PRESETS, Preset, preset};
+
+use crate::geom::{Box3, Camera, Rect, Vec3};
+
+/// A scene, complete and valid.
+#[derive(Clone, Debug)]
+pub struct Scene {
+    /// Short name, as typed.
+    pub name: String,
+    /// Name for people.
+    pub title: String,
+    /// The surfaces, never empty.
+    pub objects: Vec<Object>,
+    /// Where a floor would be, if one is asked for.
+    pub floor_height: f64,
+    /// Where the camera stands and how wide it sees.
+    pub view: View,
+    /// The area light.
+    pub light: Rect,
+}
+
+/// Position and angle of the camera.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct View {
+    /// Where it stands.
+    pub eye: Vec3,
+    /// What it looks at.
+    pub target: Vec3,
+    /// Full angle over the shorter side of the picture, degrees.
+    pub fov_deg: f64,
+}
+
+impl View {
+    /// The camera for a picture of `width / height = aspect`.
+    #[must_use]
+    pub fn camera(&self, aspect: f64) -> Camera {
+        Camera::look_at(self.eye, self.target, self.fov_deg, aspect)
+    }
+}
+
+impl Scene {
+    /// A scene of one formula typed by a user: clip box, camera and light are chosen to fit it ([`extent`]).
+    ///
+    /// # Errors
+    /// The formula's own errors, with the place in the text.
+    pub fn from_formula(text: &str) -> Result<Self, Error> {
+        let mut object = Object::parse(text, Box3::cube(1.0))?;
+        let found = extent(object.surface.as_ref());
+        object.clip = found.clip();
+        Ok(framing::scene(text.trim().to_owned(), "Formula".to_owned(), object))
+    }
+
+    /// Half the largest edge of the box that holds all objects: the scale of the scene.
+    #[must_use]
+    pub fn scale(&self) -> f64 {
+        let hull = self.objects.iter().map(|o| o.clip).reduce(Box3::hull);
+        hull.map_or(1.0, |b| b.half_extent().0.into_iter().fold(0.0, f64::max))
+    }
+}

@@ -1,0 +1,46 @@
+//! A surface of a scene.
+use crate::eval::Inclusion;
+use crate::expr::{self, Formula};
+use crate::geom::Box3;
+use crate::tape::{self, Tape};
+use std::sync::Arc;
+
+/// One surface `{f = 0}` inside its clip box.
+#[derive(Clone)]
+pub struct Object {
+    /// The formula as written.
+    pub text: String,
+    /// Its zero set's function, rewritten so that it changes sign where it can.
+    pub surface: Arc<dyn Inclusion>,
+    /// The surface exists only in here.
+    pub clip: Box3,
+}
+
+impl std::fmt::Debug for Object {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.debug_struct("Object").field("text", &self.text).field("clip", &self.clip).finish_non_exhaustive()
+    }
+}
+
+/// Why a formula does not make an object.
+#[derive(Debug, thiserror::Error)]
+pub enum Error {
+    /// The text is not a formula.
+    #[error(transparent)]
+    Formula(#[from] expr::Error),
+    /// It is one, but cannot be compiled.
+    #[error(transparent)]
+    Tape(#[from] tape::Error),
+}
+
+impl Object {
+    /// Reads, rewrites and compiles a formula.
+    ///
+    /// # Errors
+    /// See [`Error`].
+    pub fn parse(text: &str, clip: Box3) -> Result<Self, Error> {
+        let formula = Formula::parse(text)?;
+        let tape = Tape::compile(&formula.surface())?;
+        Ok(Self { text: text.to_owned(), surface: Arc::new(tape), clip })
+    }
+}
