@@ -1,0 +1,152 @@
+//! Directed rounding of single `f64` operations, portable and the same on every machine.
+//!
+//! `add_down(a, b) <= a + b <= add_up(a, b)` in real numbers, and so on for every pair of this module. The operation is
+//! done in the default mode (round to nearest); the rounded result `r` is then moved outward by `e = |r| phi + eta` with
+//! `phi = 2^-53 (1 + 2^-52)` and `eta = 2^-1074`.
+//!
+//! **Proof.** Rump, Zimmermann, Boldo, Melquiond, *Computing predecessor and successor in rounding to nearest*, BIT 49
+//! (2009), theorem 2.2: for every finite `r`, the computed `r - e` is at most the predecessor of `r` and the computed
+//! `r + e` at least its successor; equality holds but for `|r|` in about `[2^-1022, 2^-1021]`, where the step may be two
+//! units. A real number that rounds to the nearest `r` lies between these two neighbours. Overflow: a result `+inf` of
+//! finite operands means a value above the largest float, so its lower bound is `MAX`; its upper bound stays `+inf`.
+//!
+//! **Infinite operands** are limits, as bounds of intervals are: `0 * inf = 0` and `x / inf = 0`. `inf - inf` and
+//! `inf / inf` are NaN. **NaN** in gives NaN out, which no predicate takes as a proof.
+//!
+//! **Assumed**: IEEE 754 `+ - * /` and `sqrt` in round-to-nearest with subnormals, which is what Rust defines for `f64`.
+
+/// `2^-53 (1 + 2^-52)`.
+const PHI: f64 = f64::EPSILON / 2.0 * (1.0 + f64::EPSILON);
+/// `2^-1074`, the smallest subnormal.
+const ETA: f64 = f64::from_bits(1);
+
+/// A number at most the predecessor of `r`: at most every real that rounds to `r`. `+inf` gives `MAX`.
+#[inline(always)]
+#[must_use]
+pub fn next_down(r: f64) -> f64 {
+    // inf - inf would be NaN. A NaN compares unequal and stays.
+    if r == f64::INFINITY { f64::MAX } else { r - (r.abs() * PHI + ETA) }
+}
+
+/// A number at least the successor of `r`: at least every real that rounds to `r`. `-inf` gives `-MAX`.
+#[inline(always)]
+#[must_use]
+pub fn next_up(r: f64) -> f64 {
+    if r == f64::NEG_INFINITY { f64::MIN } else { r + (r.abs() * PHI + ETA) }
+}
+
+/// The smaller number; the second one if either is NaN. Unlike [`f64::min`] the same bits on every machine.
+#[inline(always)]
+pub(crate) fn lesser(a: f64, b: f64) -> f64 {
+    if a < b { a } else { b }
+}
+
+/// The larger number; the second one if either is NaN.
+#[inline(always)]
+pub(crate) fn greater(a: f64, b: f64) -> f64 {
+    if a > b { a } else { b }
+}
+
+/// Lower bound of `a + b`, exact where a term or the rounded sum is 0.
+#[inline(always)]
+#[must_use]
+pub fn add_down(a: f64, b: f64) -> f64 {
+    let r = a + b;
+    // A sum of two floats that rounds to 0 is 0: both are multiples of eta. This keeps x^2 + y^2 >= 0.
+    if (r == 0.0) | (a == 0.0) | (b == 0.0) { r } else { next_down(r) }
+}
+
+/// Upper bound of `a + b`, exact where a term or the rounded sum is 0.
+#[inline(always)]
+#[must_use]
+pub fn add_up(a: f64, b: f64) -> f64 {
+    let r = a + b;
+    if (r == 0.0) | (a == 0.0) | (b == 0.0) { r } else { next_up(r) }
+}
+
+/// Lower bound of `a - b`, exact where a term or the rounded difference is 0.
+#[inline(always)]
+#[must_use]
+pub fn sub_down(a: f64, b: f64) -> f64 {
+    add_down(a, -b)
+}
+
+/// Upper bound of `a - b`, exact where a term or the rounded difference is 0.
+#[inline(always)]
+#[must_use]
+pub fn sub_up(a: f64, b: f64) -> f64 {
+    add_up(a, -b)
+}
+
+/// Lower bound of `a * b`, exact where a factor is 0, never below 0 where the product is not; `0 * inf = 0`.
+#[inline(always)]
+#[must_use]
+pub fn mul_down(a: f64, b: f64) -> f64 {
+    let r = a * b;
+    if r.abs() > 0.0 { next_down(r) } else { vanished_product_down(a, b) }
+}
+
+/// Upper bound of `a * b`, exact where a factor is 0, never above 0 where the product is not; `0 * inf = 0`.
+#[inline(always)]
+#[must_use]
+pub fn mul_up(a: f64, b: f64) -> f64 {
+    let r = a * b;
+    if r.abs() > 0.0 { next_up(r) } else { -vanished_product_down(-a, b) }
+}
+
+/// Lower bound of a product that was rounded to 0 or NaN. The sign of the real product is known from its factors.
+#[cold]
+fn vanished_product_down(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() {
+        f64::NAN
+    } else if a == 0.0 || b == 0.0 || (a > 0.0) == (b > 0.0) {
+        // Exactly 0, or above 0 by less than eta.
+        0.0
+    } else {
+        -ETA
+    }
+}
+
+/// Lower bound of `a / b`, exact where `a` is 0 or `b` infinite, never below 0 where the quotient is not. NaN if `b` is 0.
+#[inline(always)]
+#[must_use]
+pub fn div_down(a: f64, b: f64) -> f64 {
+    let r = a / b;
+    if r.abs() > 0.0 && b != 0.0 { next_down(r) } else { vanished_quotient_down(a, b) }
+}
+
+/// Upper bound of `a / b`, exact where `a` is 0 or `b` infinite, never above 0 where the quotient is not. NaN if `b` is 0.
+#[inline(always)]
+#[must_use]
+pub fn div_up(a: f64, b: f64) -> f64 {
+    let r = a / b;
+    if r.abs() > 0.0 && b != 0.0 { next_up(r) } else { -vanished_quotient_down(-a, b) }
+}
+
+/// Lower bound of a quotient that was rounded to 0 or NaN, or whose divisor is 0.
+#[cold]
+fn vanished_quotient_down(a: f64, b: f64) -> f64 {
+    if a.is_nan() || b.is_nan() || b == 0.0 || (a.is_infinite() && b.is_infinite()) {
+        f64::NAN
+    } else if a == 0.0 || b.is_infinite() || (a > 0.0) == (b > 0.0) {
+        0.0
+    } else {
+        -ETA
+    }
+}
+
+/// Lower bound of the square root, exact at 0. NaN if `a < 0`.
+#[inline(always)]
+#[must_use]
+pub fn sqrt_down(a: f64) -> f64 {
+    let r = a.sqrt();
+    if r == 0.0 { r } else { next_down(r) }
+}
+
+/// Upper bound of the square root, exact at 0. NaN if `a < 0`.
+#[inline(always)]
+#[must_use]
+pub fn sqrt_up(a: f64) -> f64 {
+    let r = a.sqrt();
+    if r == 0.0 { r } else { next_up(r) }
+}
