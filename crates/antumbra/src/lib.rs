@@ -2,4 +2,5 @@
 #![forbid(unsafe_code)]
 
 pub mod expr;
+pub mod image;
 pub mod tape;
