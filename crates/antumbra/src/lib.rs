@@ -5,6 +5,7 @@ pub mod eval;
 pub mod expr;
 pub mod geom;
 pub mod grid;
+pub mod image;
 pub mod paper;
 pub mod render;
 pub mod scene;

@@ -1,0 +1,149 @@
+//! From linear light to the codes of a picture file: the sRGB transfer, and dither.
+
+/// The sRGB code in [0, 1] of linear light, by IEC 61966-2-1 (transfer of the standard, no approximation of it).
+///
+/// Light outside [0, 1] is clamped; NaN gives NaN.
+pub fn srgb_from_linear(linear: f64) -> f64 {
+    let light = linear.clamp(0.0, 1.0);
+    if light <= 0.003_130_8 {
+        12.92 * light
+    } else if light == 1.0 {
+        // 1.055 - 0.055 is not 1 in binary arithmetic; white is exactly white.
+        1.0
+    } else {
+        1.055 * light.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+/// The linear light of an sRGB code in [0, 1]: the inverse of [`srgb_from_linear`].
+pub fn linear_from_srgb(code: f64) -> f64 {
+    let code = code.clamp(0.0, 1.0);
+    if code <= 0.040_45 {
+        code / 12.92
+    } else if code == 1.0 {
+        1.0
+    } else {
+        ((code + 0.055) / 1.055).powf(2.4)
+    }
+}
+
+/// The 16-bit sRGB code nearest to linear light. NaN gives 0.
+pub fn code_16(linear: f64) -> u16 {
+    (65535.0 * srgb_from_linear(linear)).round() as u16
+}
+
+/// The 8-bit sRGB code of linear light, dithered. NaN gives 0.
+///
+/// Plain rounding shows bands in wide penumbrae. Noise added before rounding removes them; it is a fixed function of
+/// the pixel and the channel, so the same picture gives the same file. For the exact code `v` = 255 srgb:
+///
+/// - `floor(v + 1/2 + n)`, `n` triangular on (-1, 1): the mean of the result is `v` and its variance does not depend
+///   on `v` (Lipshitz, Wannamaker and Vanderkooy, *Quantization and Dither*, 1992), so flat areas show no pattern.
+///   `n` is the difference of the uniform noises of two neighbours: triangular, and without low frequencies along the
+///   row, where the eye would find them first.
+/// - within 1/2 of black or white, `floor(v + u)`, `u` uniform on [0, 1): the mean is still `v`, nothing has to be
+///   clamped, and `v` = 0 and `v` = 255 stay what they are.
+pub fn code_8(linear: f64, row: usize, column: usize, channel: usize) -> u8 {
+    let v = 255.0 * srgb_from_linear(linear);
+    let u = noise(row, column, channel);
+    // 0.5 <= v <= 254.5 and |n| < 1 keep the second form within 0..=255.
+    let code = if !(0.5..=254.5).contains(&v) {
+        (v + u).floor()
+    } else {
+        (v + 0.5 + u - noise(row, column.wrapping_add(1), channel)).floor()
+    };
+    code as u8
+}
+
+/// Uniform noise in [0, 1) of 32 bits, by the mixing steps of `MurmurHash3`'s 64-bit finaliser (Appleby, public
+/// domain), which sends every change of a coordinate to all bits.
+fn noise(row: usize, column: usize, channel: usize) -> f64 {
+    let mix = |mut h: u64| {
+        h = (h ^ (h >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+        h = (h ^ (h >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+        h ^ (h >> 33)
+    };
+    let row_key = mix((row as u64) ^ ((channel as u64) << 48) ^ 0x9e37_79b9_7f4a_7c15);
+    (mix(row_key ^ (column as u64)) >> 32) as f64 / 4_294_967_296.0
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn transfer_is_the_standard_one() {
+        // Values of IEC 61966-2-1: the 8-bit codes of 18 % grey and of half light.
+        assert_eq!((255.0 * srgb_from_linear(0.18)).round(), 118.0);
+        assert_eq!((255.0 * srgb_from_linear(0.5)).round(), 188.0);
+        assert_eq!((srgb_from_linear(0.0), srgb_from_linear(1.0)), (0.0, 1.0));
+        assert_eq!((srgb_from_linear(-3.0), srgb_from_linear(f64::INFINITY)), (0.0, 1.0));
+        assert!(srgb_from_linear(f64::NAN).is_nan());
+        // The two pieces of the standard meet within 1e-7 at the joint.
+        assert!((srgb_from_linear(0.003_130_8f64.next_up()) - srgb_from_linear(0.003_130_8)).abs() < 1e-7);
+    }
+
+    #[test]
+    fn every_16_bit_code_comes_back() {
+        for code in 0..=u16::MAX {
+            assert_eq!(code_16(linear_from_srgb(f64::from(code) / 65535.0)), code);
+        }
+    }
+
+    #[test]
+    fn black_and_white_are_never_dithered() {
+        for i in 0..4096 {
+            assert_eq!(code_8(0.0, i / 64, i % 64, i % 3), 0);
+            assert_eq!(code_8(1.0, i / 64, i % 64, i % 3), 255);
+            assert_eq!(code_8(f64::NAN, i / 64, i % 64, i % 3), 0);
+        }
+    }
+
+    #[test]
+    fn dither_preserves_the_mean_of_every_shade() {
+        // 256 x 256 draws of variance <= 1/4 + 1/4, minus the correlation along the row: deviation < 0.003.
+        for shade in 0..=200 {
+            let v = 255.0 * f64::from(shade) / 200.0;
+            let linear = linear_from_srgb(v / 255.0);
+            let sum: f64 = (0..65536).map(|i| f64::from(code_8(linear, i / 256, i % 256, 1))).sum();
+            assert!((sum / 65536.0 - v).abs() < 0.012, "shade {v}: mean {}", sum / 65536.0);
+        }
+    }
+
+    #[test]
+    fn a_slow_gradient_has_no_bands() {
+        // Two codes over 1024 columns. Means over 32 x 64 blocks follow the gradient; rounding alone would stay on a
+        // step and miss it by up to half a code.
+        let exact = |column: usize| 100.0 + 2.0 * (column as f64 + 0.5) / 1024.0;
+        for block in 0..16 {
+            let (mut mean, mut want) = (0.0, 0.0);
+            for row in 0..32 {
+                for column in 64 * block..64 * (block + 1) {
+                    mean += f64::from(code_8(linear_from_srgb(exact(column) / 255.0), row, column, 0)) / 2048.0;
+                    want += exact(column) / 2048.0;
+                }
+            }
+            assert!((mean - want).abs() < 0.06, "block {block}: {mean} for {want}");
+        }
+    }
+
+    #[test]
+    fn dither_uses_three_neighbouring_codes_and_no_more() {
+        // v = 100 exactly: triangular noise gives 99, 100, 101 with probability 1/8, 3/4, 1/8.
+        let mut histogram = [0u32; 256];
+        let linear = linear_from_srgb(100.0 / 255.0);
+        (0..65536).for_each(|i| histogram[usize::from(code_8(linear, i / 256, i % 256, 2))] += 1);
+        assert_eq!(histogram[99] + histogram[100] + histogram[101], 65536);
+        for (code, share) in [(99, 0.125), (100, 0.75), (101, 0.125)] {
+            assert!((f64::from(histogram[code]) / 65536.0 - share).abs() < 0.01, "{code}: {}", histogram[code]);
+        }
+    }
+
+    #[test]
+    fn noise_differs_between_channels_and_rows() {
+        let same = (0..1000).filter(|&i| (noise(0, i, 0) - noise(0, i, 1)).abs() < 1e-3).count();
+        assert!(same < 10, "{same}");
+        let correlation: f64 = (0..10_000).map(|i| (noise(1, i, 0) - 0.5) * (noise(2, i, 0) - 0.5)).sum::<f64>() / 1e4;
+        assert!(correlation.abs() < 0.005, "{correlation}");
+    }
+}

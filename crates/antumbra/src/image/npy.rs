@@ -1,0 +1,70 @@
+//! `.npy`: one plane with its element type and shape, as `numpy.load` reads it.
+
+use npyz::{AutoSerialize, WriteOptions, WriterBuilder};
+
+use super::{Error, Plane, Samples};
+
+/// The bytes of a `.npy` file: shape [`Plane::shape`], C order, little endian, row 0 at the top.
+///
+/// # Errors
+/// [`Error::Encode`] where the encoder refuses, which no plane is known to cause.
+pub fn npy_bytes(plane: &Plane) -> Result<Vec<u8>, Error> {
+    match plane.samples() {
+        Samples::F64(v) => write(plane, v),
+        Samples::F32(v) => write(plane, v),
+        Samples::U64(v) => write(plane, v),
+        Samples::U32(v) => write(plane, v),
+        Samples::U16(v) => write(plane, v),
+        Samples::U8(v) => write(plane, v),
+    }
+}
+
+fn write<T: AutoSerialize + Copy>(plane: &Plane, values: &[T]) -> Result<Vec<u8>, Error> {
+    let shape: Vec<u64> = plane.shape().iter().map(|&n| n as u64).collect();
+    let mut bytes = Vec::with_capacity(256 + size_of_val(values));
+    let mut encode = || {
+        let mut writer = WriteOptions::new().default_dtype().shape(&shape).writer(&mut bytes).begin_nd()?;
+        writer.extend(values.iter().copied())?;
+        writer.finish()
+    };
+    encode().map_err(|e| Error::Encode { format: ".npy", reason: e.to_string() })?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use npyz::NpyFile;
+
+    #[test]
+    fn what_is_written_is_read_back() {
+        let normal: Vec<f64> = (0..2 * 5 * 3).map(|i| f64::from(i) / 7.0).collect();
+        let plane = Plane::with_channels("normal", 2, 5, 3, normal.clone()).unwrap();
+        let bytes = npy_bytes(&plane).unwrap();
+        let file = NpyFile::new(&bytes[..]).unwrap();
+        assert_eq!(file.shape(), [2, 5, 3]);
+        assert_eq!(file.order(), npyz::Order::C);
+        assert_eq!(file.into_vec::<f64>().unwrap(), normal);
+
+        let verdict = Plane::new("verdict", 2, 2, vec![0u8, 1, 2, 255]).unwrap();
+        let bytes = npy_bytes(&verdict).unwrap();
+        let file = NpyFile::new(&bytes[..]).unwrap();
+        assert_eq!(file.shape(), [2, 2]);
+        assert_eq!(file.into_vec::<u8>().unwrap(), [0, 1, 2, 255]);
+    }
+
+    #[test]
+    fn nan_and_infinity_survive() {
+        let plane = Plane::new("t_lo", 1, 3, vec![f64::NAN, f64::INFINITY, -0.0]).unwrap();
+        let bytes = npy_bytes(&plane).unwrap();
+        let back = NpyFile::new(&bytes[..]).unwrap().into_vec::<f64>().unwrap();
+        assert!(back[0].is_nan() && back[1] == f64::INFINITY && back[2].to_bits() == (-0.0f64).to_bits());
+    }
+
+    #[test]
+    fn counters_keep_all_their_bits() {
+        let plane = Plane::new("cost", 1, 2, vec![u64::MAX, 1]).unwrap();
+        let back = NpyFile::new(&npy_bytes(&plane).unwrap()[..]).unwrap().into_vec::<u64>().unwrap();
+        assert_eq!(back, [u64::MAX, 1]);
+    }
+}

@@ -1,0 +1,132 @@
+//! `.png`: the picture for eyes, in sRGB.
+
+use super::{Error, Plane, SOFTWARE, Samples, code_8, code_16};
+
+/// Bits per channel of a PNG.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Depth {
+    /// 8 bits, dithered: see [`code_8`].
+    #[default]
+    Eight,
+    /// 16 bits, rounded to nearest.
+    Sixteen,
+}
+
+/// The bytes of a PNG of a plane of linear RGB light: light 0 is black, light 1 is white, more than 1 is white.
+///
+/// The file says that it is sRGB (chunks `sRGB` and `gAMA`) and which program wrote it
+/// (`tEXt Software`). Equal planes give equal bytes.
+///
+/// # Errors
+/// [`Error::NotColor`] unless the plane has three channels of `f32` or `f64`; [`Error::NotANumber`] where one is NaN;
+/// [`Error::Encode`] where the encoder refuses (more than 2^31 - 1 rows or columns).
+pub fn png_bytes(plane: &Plane, depth: Depth) -> Result<Vec<u8>, Error> {
+    match plane.samples() {
+        Samples::F64(v) if plane.channels() == 3 => encode(plane, depth, v.iter().copied()),
+        Samples::F32(v) if plane.channels() == 3 => encode(plane, depth, v.iter().map(|&x| f64::from(x))),
+        _ => Err(Error::NotColor(plane.name().to_owned())),
+    }
+}
+
+fn encode(plane: &Plane, depth: Depth, light: impl Iterator<Item = f64>) -> Result<Vec<u8>, Error> {
+    let columns = plane.columns();
+    let place = |i: usize| (i / 3 / columns, i / 3 % columns, i % 3);
+    let mut codes = Vec::with_capacity(plane.samples().len() * if depth == Depth::Eight { 1 } else { 2 });
+    for (i, x) in light.enumerate() {
+        let (row, column, channel) = place(i);
+        if x.is_nan() {
+            return Err(Error::NotANumber { name: plane.name().to_owned(), row, column });
+        }
+        match depth {
+            Depth::Eight => codes.push(code_8(x, row, column, channel)),
+            Depth::Sixteen => codes.extend(code_16(x).to_be_bytes()),
+        }
+    }
+    let refused = |reason: String| Error::Encode { format: "PNG", reason };
+    let side = |n: usize| u32::try_from(n).map_err(|_| refused(format!("{n} pixels a side are too many")));
+    let mut bytes = Vec::new();
+    let mut encoder = png::Encoder::new(&mut bytes, side(columns)?, side(plane.rows())?);
+    encoder.set_color(png::ColorType::Rgb);
+    encoder.set_depth(if depth == Depth::Eight { png::BitDepth::Eight } else { png::BitDepth::Sixteen });
+    // 1/2.2, the value that the PNG standard wants beside `sRGB` for programs that know only `gAMA`.
+    encoder.set_source_gamma(png::ScaledFloat::from_scaled(45455));
+    encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
+    let write = || {
+        encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+        let mut writer = encoder.write_header()?;
+        writer.write_image_data(&codes)?;
+        writer.finish()
+    };
+    write().map_err(|e: png::EncodingError| refused(e.to_string()))?;
+    Ok(bytes)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::image::{COLOR_PLANE, srgb_from_linear};
+    use std::io::Cursor;
+
+    fn decode(bytes: Vec<u8>) -> (png::Reader<Cursor<Vec<u8>>>, Vec<u8>) {
+        let mut reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
+        let mut codes = vec![0; reader.output_buffer_size().unwrap()];
+        reader.next_frame(&mut codes).unwrap();
+        (reader, codes)
+    }
+
+    fn ramp() -> (Vec<f32>, Plane) {
+        let light: Vec<f32> = (0..16 * 64 * 3).map(|i| (i / 3 % 64) as f32 / 63.0).collect();
+        (light.clone(), Plane::with_channels(COLOR_PLANE, 16, 64, 3, light).unwrap())
+    }
+
+    #[test]
+    fn sixteen_bits_decode_to_the_light_that_went_in() {
+        let (light, plane) = ramp();
+        let (reader, codes) = decode(png_bytes(&plane, Depth::Sixteen).unwrap());
+        assert_eq!((reader.info().width, reader.info().height), (64, 16));
+        for (pair, x) in codes.chunks(2).zip(light) {
+            let code = f64::from(u16::from_be_bytes([pair[0], pair[1]]));
+            assert!((code - 65535.0 * srgb_from_linear(f64::from(x))).abs() <= 0.5);
+        }
+    }
+
+    #[test]
+    fn eight_bits_stay_within_two_codes_and_keep_the_ends() {
+        let (light, plane) = ramp();
+        let (_, codes) = decode(png_bytes(&plane, Depth::Eight).unwrap());
+        for (code, x) in codes.into_iter().zip(light) {
+            let v = 255.0 * srgb_from_linear(f64::from(x));
+            assert!((f64::from(code) - v).abs() < 1.5, "{code} for {v}");
+            assert!((x != 0.0 || code == 0) && (x != 1.0 || code == 255));
+        }
+    }
+
+    #[test]
+    fn the_file_says_what_it_is() {
+        let (_, plane) = ramp();
+        let (reader, _) = decode(png_bytes(&plane, Depth::Eight).unwrap());
+        let info = reader.info();
+        assert_eq!(info.srgb, Some(png::SrgbRenderingIntent::Perceptual));
+        assert_eq!(info.gama_chunk.unwrap().into_scaled(), 45455);
+        let text = &info.uncompressed_latin1_text;
+        assert_eq!((text[0].keyword.as_str(), text[0].text.as_str()), ("Software", SOFTWARE));
+    }
+
+    #[test]
+    fn what_is_not_a_picture_is_refused() {
+        let grey = Plane::new("t_lo", 1, 1, vec![0.0]).unwrap();
+        assert!(matches!(png_bytes(&grey, Depth::Eight), Err(Error::NotColor(_))));
+        let codes = Plane::with_channels("rgb", 1, 1, 3, vec![0u8; 3]).unwrap();
+        assert!(matches!(png_bytes(&codes, Depth::Eight), Err(Error::NotColor(_))));
+        let mut light = vec![0.5f32; 2 * 2 * 3];
+        light[10] = f32::NAN;
+        let plane = Plane::with_channels("rgb", 2, 2, 3, light).unwrap();
+        assert!(matches!(png_bytes(&plane, Depth::Sixteen), Err(Error::NotANumber { row: 1, column: 1, .. })));
+    }
+
+    #[test]
+    fn bright_and_negative_light_is_clamped() {
+        let plane = Plane::with_channels("rgb", 1, 1, 3, vec![-1.0, 7.0, f64::INFINITY]).unwrap();
+        assert_eq!(decode(png_bytes(&plane, Depth::Eight).unwrap()).1, [0, 255, 255]);
+    }
+}
