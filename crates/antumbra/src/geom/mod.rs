@@ -1,6 +1,7 @@
 //! Points, boxes, beams, rectangles of light, the camera. This room knows no formula.
 mod beam;
 mod camera;
+pub mod halfplanes;
 mod rect;
 mod vector;
 
