@@ -1,3 +1,4 @@
 //! Sound interval arithmetic.
+pub mod affine;
 mod interval;
 pub use interval::Interval;
