@@ -1,4 +1,5 @@
 //! Sound interval arithmetic.
+pub mod affine;
 mod arith;
 mod decoration;
 mod elementary;
