@@ -2,25 +2,99 @@
 use super::{Gradient, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
-use antumbra_interval::Interval;
+use antumbra_interval::affine::{Affine, Dual, Slope};
+use antumbra_interval::{Decorated, Decoration, Interval};
 
 /// Scratch memory of one thread. Start from `default()` and keep it: it only grows.
 #[derive(Debug, Default)]
 pub struct Workspace {
     intervals: Vec<Interval>,
+    decorated: Vec<Decorated>,
     gradients: Vec<Gradient>,
+    rays: Vec<Dual<1>>,
+    beams: Vec<Affine<3>>,
+    beam_slopes: Vec<Slope<Interval, 3>>,
+    shafts: Vec<Affine<5>>,
+    shaft_slopes: Vec<Slope<Affine<5>, 5>>,
 }
 
-/// A real function of space with an inclusion function (paper, section 2): everything a renderer may ask of it.
+/// A point on a beam piece, as linear functions of the beam's symbols: (t, i, j) of a camera frustum, (t, u, v) of a
+/// shadow beam.
+pub type BeamPoint = [Affine<3>; 3];
+/// A point in a shaft between a tile of hits and a light, over (t, u, v, i, j).
+pub type ShaftPoint = [Affine<5>; 3];
+
+/// A real function of space with its inclusion functions (paper, section 2): everything a renderer may ask of it.
 ///
-/// Tapes implement it; so may a user's own code. The law for every method: the answer encloses the true value at
-/// every point of the box at which the function is defined; the empty interval says that it is defined nowhere there.
+/// Tapes implement it; so may a user's own code, for which `range`, `decorated` and `gradient` suffice: the rest follows
+/// by the mean value theorem. The law for every method: the answer encloses the true value at every point at which the
+/// function is defined; the empty interval says that it is defined nowhere there.
 pub trait Inclusion: Send + Sync {
     /// Enclosure of the function over the box: the paper's `F(X, Y, Z)`.
     fn range(&self, region: &Box3, work: &mut Workspace) -> Interval;
 
-    /// Enclosures of the function and of its gradient over the box.
+    /// The same, and whether the function is proved defined and continuous on the whole box.
+    fn decorated(&self, region: &Box3, work: &mut Workspace) -> Decorated;
+
+    /// Enclosures of the function and of its gradient over the box. At kinks: of all generalised gradients.
     fn gradient(&self, region: &Box3, work: &mut Workspace) -> Gradient;
+
+    /// True only if the function is known to be defined and continuous everywhere; then nobody asks for decorations.
+    fn continuous_everywhere(&self) -> bool {
+        false
+    }
+
+    /// Value and derivative along a ray.
+    fn ray(&self, point: [Dual<1>; 3], work: &mut Workspace) -> Dual<1> {
+        let value = mean_value(self, point.map(|x| x.value), work);
+        let gradient = self.gradient(&Box3(point.map(|x| x.value.range())), work);
+        let derivative = inner_product(gradient.partials, point.map(|x| x.derivative));
+        Dual { value, derivative }
+    }
+
+    /// The function over a piece of a beam.
+    fn beam(&self, point: BeamPoint, work: &mut Workspace) -> Affine<3> {
+        mean_value(self, point, work)
+    }
+
+    /// The slope `g` of `f(P + t D) = f(P) + t g` over a piece of a beam from an apex known to be in an interval box.
+    fn beam_slope(&self, point: [Slope<Interval, 3>; 3], work: &mut Workspace) -> Affine<3> {
+        let region = Box3(point.map(|x| x.apex.hull(x.value.range())));
+        inner_product(self.gradient(&region, work).partials, point.map(|x| x.slope))
+    }
+
+    /// The function over a piece of a shaft.
+    fn shaft(&self, point: ShaftPoint, work: &mut Workspace) -> Affine<5> {
+        mean_value(self, point, work)
+    }
+
+    /// The slope over a piece of a shaft, whose apex varies with the tile.
+    fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
+        let region = Box3(point.map(|x| x.apex.range().hull(x.value.range())));
+        inner_product(self.gradient(&region, work).partials, point.map(|x| x.slope))
+    }
+}
+
+/// `sum g_k d_k` for numbers `g_k` of intervals that may differ from symbol value to symbol value.
+fn inner_product<const N: usize>(g: [Interval; 3], d: [Affine<N>; 3]) -> Affine<N> {
+    (0..3).fold(Affine::ZERO, |sum, k| sum + d[k].mul_interval(g[k]))
+}
+
+/// `f(x) = f(m) + g (x - m)` with g in the gradient over the box of all x. Needs f continuous on that (convex) box: it
+/// is then Lipschitz along the segment from m to x with its generalised gradients as slopes.
+fn mean_value<const N: usize>(f: &(impl Inclusion + ?Sized), x: [Affine<N>; 3], work: &mut Workspace) -> Affine<N> {
+    let region = Box3(x.map(|x| x.range()));
+    let plain = f.decorated(&region, work);
+    if plain.decoration < Decoration::Continuous {
+        return Affine::constant(plain.interval);
+    }
+    let mid = region.mid().to_box();
+    let centre = f.range(&mid, work);
+    let partials = f.gradient(&region, work).partials;
+    let offsets = std::array::from_fn(|k| x[k].add_interval(-mid[k]));
+    let form = inner_product(partials, offsets).add_interval(centre);
+    let constant = Affine::constant(plain.interval);
+    if form.error() <= constant.error() { form } else { constant }
 }
 
 impl Inclusion for Tape {
@@ -29,8 +103,40 @@ impl Inclusion for Tape {
         run(self, region.0, &mut work.intervals)
     }
 
-    #[inline]
+    fn decorated(&self, region: &Box3, work: &mut Workspace) -> Decorated {
+        run(self, region.0.map(Decorated::from), &mut work.decorated)
+    }
+
     fn gradient(&self, region: &Box3, work: &mut Workspace) -> Gradient {
         run(self, Gradient::coordinates(region.0), &mut work.gradients)
+    }
+
+    fn continuous_everywhere(&self) -> bool {
+        self.is_continuous_everywhere()
+    }
+
+    #[inline]
+    fn ray(&self, point: [Dual<1>; 3], work: &mut Workspace) -> Dual<1> {
+        run(self, point, &mut work.rays)
+    }
+
+    #[inline]
+    fn beam(&self, point: BeamPoint, work: &mut Workspace) -> Affine<3> {
+        run(self, point, &mut work.beams)
+    }
+
+    #[inline]
+    fn beam_slope(&self, point: [Slope<Interval, 3>; 3], work: &mut Workspace) -> Affine<3> {
+        run(self, point, &mut work.beam_slopes).slope
+    }
+
+    #[inline]
+    fn shaft(&self, point: ShaftPoint, work: &mut Workspace) -> Affine<5> {
+        run(self, point, &mut work.shafts)
+    }
+
+    #[inline]
+    fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
+        run(self, point, &mut work.shaft_slopes).slope
     }
 }

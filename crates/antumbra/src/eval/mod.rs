@@ -1,13 +1,17 @@
-//! Evaluators: siblings that run the same tape on different kinds of number. None imports another's answers.
+//! Evaluators: one interpreter runs the same tape on different kinds of number, each the enclosure of something else.
 //!
-//! | module | a slot holds | answer |
-//! |---|---|---|
-//! | [`point`] | `f64` | the rounded value: for shading and sampling, never for proofs |
-//! | `interval` | [`Interval`] | enclosure of f over a box |
-//! | [`gradient`] | interval and three partial derivatives | enclosure of f and of its gradient over a box |
+//! | kind of number | answer |
+//! |---|---|
+//! | `f64` ([`value_at`]) | the rounded value: for shading and sampling, never for proofs |
+//! | [`Interval`](antumbra_interval::Interval) | enclosure of f over a box |
+//! | [`Decorated`](antumbra_interval::Decorated) | the same, and whether f is defined and continuous there |
+//! | [`Gradient`] | enclosures of f and of its three partial derivatives over a box |
+//! | [`Affine`](antumbra_interval::affine::Affine) | f as a linear function of beam parameters, with an error |
+//! | [`Slope`](antumbra_interval::affine::Slope) | f(P + t D) = f(P) + t g: g in affine form |
+//! | [`Dual`](antumbra_interval::affine::Dual) | f and its derivative along a ray, in affine form |
+mod enclosure;
 mod gradient;
 mod inclusion;
-mod interval;
 mod machine;
 mod point;
 
@@ -15,6 +19,3 @@ pub use gradient::Gradient;
 pub use inclusion::{Inclusion, Workspace};
 pub use machine::{Number, run};
 pub use point::value_at;
-
-#[allow(unused_imports, reason = "named by the table above")]
-use antumbra_interval::Interval;

@@ -1,11 +1,15 @@
 //! Points, boxes, beams, rectangles of light, the camera. This room knows no formula.
 mod beam;
 mod camera;
+mod clip;
+mod fan;
 pub mod halfplanes;
 mod rect;
 mod vector;
 
 pub use beam::{Beam, section};
 pub use camera::{Camera, Film};
+pub use clip::{Clip, Passage};
+pub use fan::Fan;
 pub use rect::Rect;
 pub use vector::{Box3, Vec3};

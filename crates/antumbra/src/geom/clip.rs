@@ -1,0 +1,159 @@
+//! Where a surface exists: everywhere, in a box, or in a ball.
+use super::{Box3, Vec3};
+use antumbra_interval::Interval;
+use antumbra_interval::round::{div_down, div_up, sub_down};
+
+/// A closed convex region; the surface ends at its border, without caps. The numbers are exact.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Clip {
+    /// All of space.
+    Everywhere,
+    /// An axis-aligned box.
+    Box(Box3),
+    /// A ball.
+    Ball {
+        /// Centre.
+        center: Vec3,
+        /// Radius, greater than 0.
+        radius: f64,
+    },
+}
+
+/// Parameters `t >= 0` at which a fan of rays is inside a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Passage {
+    /// Outside of these no ray is inside; empty if none ever is.
+    pub outer: Interval,
+    /// At each of these every ray is inside; empty if that is proved of no parameter.
+    pub inner: Interval,
+}
+
+impl Clip {
+    /// The smallest box known to hold the region; unbounded for all of space.
+    #[must_use]
+    pub fn bounds(&self) -> Box3 {
+        match *self {
+            Self::Everywhere => Box3([Interval::ENTIRE; 3]),
+            Self::Box(b) => b,
+            Self::Ball { center, radius } => {
+                Box3(center.0.map(|c| Interval::point(c) + Interval::new(-radius, radius)))
+            }
+        }
+    }
+
+    /// Where the rays `P + t D` are inside, for all `P` in `apex` and all `D` in `direction`, `t >= 0`.
+    #[must_use]
+    pub fn passage(&self, apex: &Box3, direction: &Box3) -> Passage {
+        match self {
+            Self::Everywhere => Passage { outer: Interval::NON_NEGATIVE, inner: Interval::NON_NEGATIVE },
+            Self::Box(b) => box_passage(b, apex, direction),
+            Self::Ball { center, radius } => ball_passage(*center, *radius, apex, direction),
+        }
+    }
+}
+
+fn box_passage(b: &Box3, apex: &Box3, direction: &Box3) -> Passage {
+    let mut outer = Interval::NON_NEGATIVE;
+    let (mut enter, mut leave) = (0.0_f64, f64::INFINITY);
+    for k in 0..3 {
+        let (p, d) = (apex[k], direction[k]);
+        // t d = n with n in b - p: as for beams, only directions of the sign of n matter.
+        let n = b[k] - p;
+        let d_of_n = if n.certainly_positive() {
+            d.intersection(Interval::NON_NEGATIVE)
+        } else if n.certainly_negative() {
+            d.intersection(-Interval::NON_NEGATIVE)
+        } else {
+            d
+        };
+        outer = outer.intersection(n / d_of_n);
+        // Every ray is on the inner side of the upper face iff t d.hi <= b.hi - p.hi, of the lower iff
+        // t (-d.lo) <= p.lo - b.lo.
+        for (slope, room) in [(d.hi(), sub_down(b[k].hi(), p.hi())), (-d.lo(), sub_down(p.lo(), b[k].lo()))] {
+            if slope > 0.0 {
+                // room < 0: never.
+                leave = leave.min(if room >= 0.0 { div_down(room, slope) } else { -1.0 });
+            } else if room < 0.0 {
+                enter = if slope < 0.0 { enter.max(div_up(room, slope)) } else { f64::INFINITY };
+            }
+        }
+    }
+    Passage { outer, inner: Interval::try_new(enter, leave).unwrap_or(Interval::EMPTY) }
+}
+
+/// `|P + t D - C|^2 <= r^2` is `a t^2 + 2 b t + c <= 0`: between the roots `(-b -+ sqrt(b^2 - a c)) / a`.
+fn ball_passage(center: Vec3, radius: f64, apex: &Box3, direction: &Box3) -> Passage {
+    let (mut a, mut b) = (Interval::ZERO, Interval::ZERO);
+    let mut c = -Interval::point(radius).sqr();
+    for k in 0..3 {
+        let q = apex[k] - Interval::point(center[k]);
+        a = a + direction[k].sqr();
+        b = b + q * direction[k];
+        c = c + q.sqr();
+    }
+    let discriminant = b.sqr() - a * c;
+    if discriminant.certainly_negative() {
+        return Passage { outer: Interval::EMPTY, inner: Interval::EMPTY };
+    }
+    if !a.certainly_positive() {
+        return Passage { outer: Interval::NON_NEGATIVE, inner: Interval::EMPTY };
+    }
+    let root = discriminant.sqrt();
+    let (first, last) = ((-b - root) / a, (-b + root) / a);
+    let outer = first.hull(last).intersection(Interval::NON_NEGATIVE);
+    // Where the discriminant may be negative, some ray may miss the ball.
+    let inner = if discriminant.lo() >= 0.0 {
+        Interval::try_new(first.hi(), last.lo()).unwrap_or(Interval::EMPTY).intersection(Interval::NON_NEGATIVE)
+    } else {
+        Interval::EMPTY
+    };
+    Passage { outer, inner }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn random(state: &mut u64) -> f64 {
+        *state = state.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (*state >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+    }
+
+    #[test]
+    fn passages_hold_for_sampled_rays_and_are_not_empty_by_laziness() {
+        let mut s = 9;
+        let mut useful = 0;
+        for round in 0..4000 {
+            let apex = Box3(std::array::from_fn(|_| {
+                let c = 2.0 * random(&mut s);
+                Interval::new(c, c + 1e-3 * random(&mut s).abs())
+            }));
+            let direction = Box3(std::array::from_fn(|_| {
+                let c = random(&mut s);
+                Interval::new(c, c + 0.05 * random(&mut s).abs())
+            }));
+            let (center, radius) = (Vec3::new(0.1, -0.2, 0.3), 1.0);
+            let clip = if round % 2 == 0 { Clip::Box(Box3::cube(1.0)) } else { Clip::Ball { center, radius } };
+            let passage = clip.passage(&apex, &direction);
+            useful += usize::from(!passage.inner.is_empty() && passage.inner.width() > 0.1);
+            for _ in 0..20 {
+                let t = 2.0 + 2.0 * random(&mut s);
+                let inside = |k: f64| {
+                    let x: [f64; 3] = std::array::from_fn(|i| {
+                        let (p, d) = (apex[i], direction[i]);
+                        p.lo() + k * (p.hi() - p.lo()) + t * (d.lo() + k * (d.hi() - d.lo()))
+                    });
+                    match clip {
+                        Clip::Box(_) => x.iter().all(|v| v.abs() <= 1.0),
+                        _ => (Vec3(x) - center).length() <= radius,
+                    }
+                };
+                for k in [0.0, 0.5, 1.0] {
+                    assert!(!inside(k) || passage.outer.contains(t), "a ray is inside at {t}, outside {passage:?}");
+                    assert!(inside(k) || !passage.inner.contains(t), "a ray is outside at {t}, inside {passage:?}");
+                }
+            }
+        }
+        assert!(useful > 300, "{useful}");
+    }
+}
