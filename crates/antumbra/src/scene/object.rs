@@ -2,7 +2,7 @@
 use crate::eval::Inclusion;
 use crate::expr::{self, Formula};
 use crate::geom::Box3;
-use crate::tape::{self, Tape};
+use crate::tape::{Tape, TapeError};
 use std::sync::Arc;
 
 /// One surface `{f = 0}` inside its clip box.
@@ -30,7 +30,7 @@ pub enum Error {
     Formula(#[from] expr::Error),
     /// It is one, but cannot be compiled.
     #[error(transparent)]
-    Tape(#[from] tape::Error),
+    Tape(#[from] TapeError),
 }
 
 impl Object {
@@ -40,7 +40,7 @@ impl Object {
     /// See [`Error`].
     pub fn parse(text: &str, clip: Box3) -> Result<Self, Error> {
         let formula = Formula::parse(text)?;
-        let tape = Tape::compile(&formula.surface())?;
+        let tape = Tape::compile(formula.surface().formula())?;
         Ok(Self { text: text.to_owned(), surface: Arc::new(tape), clip })
     }
 }

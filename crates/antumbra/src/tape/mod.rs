@@ -1,6 +1,15 @@
 //! A formula as a flat list of operations on slots: what every evaluator runs.
+mod build;
+mod compile;
+mod constant;
+
+pub use build::TapeError;
+
 use crate::expr::{Axis, Binary, Unary};
 use antumbra_interval::Interval;
+
+/// Most operations of a tape.
+pub const MAX_CLAUSES: usize = 1 << 20;
 
 /// What a [`Clause`] computes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -36,6 +45,7 @@ pub struct Tape {
     clauses: Vec<Clause>,
     constants: Vec<Interval>,
     slots: usize,
+    continuous: bool,
 }
 
 impl Tape {
@@ -55,5 +65,13 @@ impl Tape {
     #[must_use]
     pub fn slots(&self) -> usize {
         self.slots
+    }
+
+    /// Proved, from the formula alone: defined and continuous at every point of space. `false` means "not proved".
+    ///
+    /// It is a statement about the real function; an evaluator that carries decorations may skip them where it holds.
+    #[must_use]
+    pub fn is_continuous_everywhere(&self) -> bool {
+        self.continuous
     }
 }

@@ -1,0 +1,131 @@
+//! The formula as a value: a graph and its root.
+use super::{
+    Error, ErrorKind, Graph, MAX_SOURCE, NodeId, Surface, derivative::derivative, lower::lower, print, statement,
+    surface::zero_set,
+};
+use super::{Axis, Derivative};
+use std::fmt;
+
+/// The real function that a formula denotes, exactly.
+///
+/// Equality is structural: the same operations on the same constants in the same order.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    graph: Graph,
+    root: NodeId,
+}
+
+impl Formula {
+    /// Reads a formula in the language described at [`crate::expr`], and simplifies it (same function, same domain).
+    ///
+    /// # Errors
+    /// Says what is wrong, where, and what to do: see [`Error`]. Never panics, whatever the text.
+    ///
+    /// Cost: linear in the length of the text, apart from the expansion of functions and transforms, which is capped.
+    pub fn parse(source: &str) -> Result<Self, Error> {
+        Self::read(source, true)
+    }
+
+    /// As [`parse`](Self::parse), without the simplification: the operations as they were written.
+    ///
+    /// # Errors
+    /// As `parse`.
+    pub fn parse_as_written(source: &str) -> Result<Self, Error> {
+        Self::read(source, false)
+    }
+
+    fn read(source: &str, simplifying: bool) -> Result<Self, Error> {
+        if source.len() > MAX_SOURCE {
+            let message = format!("the formula has {} bytes; the most is {MAX_SOURCE}", source.len());
+            return Err(Error::new(source, ErrorKind::TooLarge, 0..0, message));
+        }
+        let program = statement::read(source)?;
+        let (graph, root) = lower(source, &program, simplifying)?;
+        Ok(Self { graph, root }.compacted())
+    }
+
+    pub(crate) fn new(graph: Graph, root: NodeId) -> Self {
+        Self { graph, root }
+    }
+
+    /// The operations; all of them are used by the root unless said otherwise.
+    #[must_use]
+    pub fn graph(&self) -> &Graph {
+        &self.graph
+    }
+
+    /// The operation whose value is the formula's.
+    #[must_use]
+    pub fn root(&self) -> NodeId {
+        self.root
+    }
+
+    /// The same function on the same domain, with the rules of `rules.rs` applied from the leaves to the root.
+    #[must_use]
+    pub fn simplify(&self) -> Self {
+        self.rebuilt(true).compacted()
+    }
+
+    /// Without operations that the root does not use.
+    pub(crate) fn compacted(&self) -> Self {
+        self.rebuilt(false)
+    }
+
+    fn rebuilt(&self, simplifying: bool) -> Self {
+        let mut graph = Graph::new(simplifying);
+        let used = self.graph.reachable(self.root);
+        let mut place = vec![NodeId(0); used.len()];
+        for i in (0..used.len()).filter(|&i| used[i]) {
+            place[i] = graph.copy(&self.graph, NodeId(i as u32), |id| place[id.index()]);
+        }
+        Self { root: place[self.root.index()], graph }
+    }
+
+    /// A simpler formula with the same zero set, and what was done to get it.
+    #[must_use]
+    pub fn surface(&self) -> Surface {
+        zero_set(self)
+    }
+
+    /// The partial derivative along an axis: see [`Derivative`] for where it holds.
+    #[must_use]
+    pub fn derivative(&self, axis: Axis) -> Derivative {
+        derivative(self, axis)
+    }
+
+    /// Proved to be defined and continuous at every point of space; `false` means "not proved".
+    #[must_use]
+    pub fn is_continuous_everywhere(&self) -> bool {
+        self.graph.facts(self.root).continuous
+    }
+
+    /// Whether both are the same operations on the same operands, shared or not.
+    #[must_use]
+    pub fn same_as(&self, other: &Self) -> bool {
+        // Copying both into one graph that shares equal operations makes equal formulas one node.
+        let mut graph = Graph::new(false);
+        let mut roots = [self, other].map(|formula| {
+            let used = formula.graph.reachable(formula.root);
+            let mut place = vec![NodeId(0); used.len()];
+            for i in (0..used.len()).filter(|&i| used[i]) {
+                place[i] = graph.copy(&formula.graph, NodeId(i as u32), |id| place[id.index()]);
+            }
+            place[formula.root.index()]
+        });
+        let [a, b] = &mut roots;
+        a == b
+    }
+}
+
+impl PartialEq for Formula {
+    fn eq(&self, other: &Self) -> bool {
+        self.same_as(other)
+    }
+}
+
+/// Text that [`Formula::parse_as_written`] reads as the same formula. Large shared parts are written once, as definitions.
+impl fmt::Display for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        print::print(&self.graph, self.root, f)
+    }
+}
