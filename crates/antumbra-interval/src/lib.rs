@@ -3,6 +3,7 @@ mod arith;
 mod decoration;
 mod elementary;
 mod interval;
+pub mod lanes;
 mod power;
 pub mod round;
 mod trig;
