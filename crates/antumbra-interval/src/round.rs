@@ -6,7 +6,7 @@
 //!
 //! **Proof.** Rump, Zimmermann, Boldo, Melquiond, *Computing predecessor and successor in rounding to nearest*, BIT 49
 //! (2009), theorem 2.2: for every finite `r`, the computed `r - e` is at most the predecessor of `r` and the computed
-//! `r + e` at least its successor; equality holds but for `|r|` in about `[2^-1022, 2^-1021]`, where the step may be two
+//! `r + e` at least its successor; equality holds but for `|r|` in about `[2^-1022, 2^-1020]`, where the step may be two
 //! units. A real number that rounds to the nearest `r` lies between these two neighbours. Overflow: a result `+inf` of
 //! finite operands means a value above the largest float, so its lower bound is `MAX`; its upper bound stays `+inf`.
 //!
