@@ -1,4 +1,5 @@
 //! Arithmetic against exact rational numbers: containment always, and no bound more than the stated number of steps out.
+#![allow(clippy::disallowed_methods, reason = "no NaN and no sign of zero is at stake among finite test values")]
 mod nasty;
 
 use antumbra_interval::{Interval, round};
