@@ -174,7 +174,7 @@ fn directed_rounding_is_tightest() {
     let roots = unary(level, UNARY[3], &a);
     for (i, a) in a.iter().enumerate() {
         let ends = [a.mignitude(), a.magnitude()].map(|x| exact(x) * exact(x));
-        tightest(&format!("{} squared", a), squares.interval(i), &ends);
+        tightest(&format!("{a} squared"), squares.interval(i), &ends);
         let root = roots.interval(i);
         let square = |x: f64| exact(x) * exact(x);
         if !root.is_empty() {
