@@ -19,7 +19,7 @@ impl Add for Interval {
     type Output = Self;
     #[inline]
     fn add(self, o: Self) -> Self {
-        if self.is_empty() || o.is_empty() {
+        if self.is_empty() | o.is_empty() {
             return Self::EMPTY;
         }
         // lo < +inf and hi > -inf on both sides: inf - inf cannot arise.
@@ -31,7 +31,7 @@ impl Sub for Interval {
     type Output = Self;
     #[inline]
     fn sub(self, o: Self) -> Self {
-        if self.is_empty() || o.is_empty() {
+        if self.is_empty() | o.is_empty() {
             return Self::EMPTY;
         }
         Self { lo: sub_down(self.lo, o.hi), hi: sub_up(self.hi, o.lo) }
@@ -44,7 +44,7 @@ impl Mul for Interval {
     #[inline]
     fn mul(self, o: Self) -> Self {
         let (a, b) = (self, o);
-        if a.is_empty() || b.is_empty() {
+        if a.is_empty() | b.is_empty() {
             return Self::EMPTY;
         }
         let (lo, hi) = if a.lo >= 0.0 {
@@ -72,7 +72,7 @@ impl Div for Interval {
     /// The hull of `{x / y : y != 0}` (IEEE 1788): `[1, 2] / [0, 1] = [1, +inf]`, and nothing for the divisor `[0, 0]`.
     #[inline]
     fn div(self, o: Self) -> Self {
-        if self.is_empty() || o.is_empty() {
+        if self.is_empty() | o.is_empty() {
             return Self::EMPTY;
         }
         if o.lo > 0.0 {
@@ -176,7 +176,7 @@ impl Interval {
     #[inline]
     #[must_use]
     pub fn min(self, o: Self) -> Self {
-        if self.is_empty() || o.is_empty() {
+        if self.is_empty() | o.is_empty() {
             return Self::EMPTY;
         }
         Self { lo: lesser(self.lo, o.lo), hi: lesser(self.hi, o.hi) }
@@ -185,7 +185,7 @@ impl Interval {
     #[inline]
     #[must_use]
     pub fn max(self, o: Self) -> Self {
-        if self.is_empty() || o.is_empty() {
+        if self.is_empty() | o.is_empty() {
             return Self::EMPTY;
         }
         Self { lo: greater(self.lo, o.lo), hi: greater(self.hi, o.hi) }

@@ -33,7 +33,7 @@ pub struct Decorated {
 impl From<Interval> for Decorated {
     /// A variable or a constant: continuous, unless there is no value.
     fn from(interval: Interval) -> Self {
-        Self { interval, decoration: Decoration::Continuous }.checked()
+        Self { interval, decoration: Continuous }.checked()
     }
 }
 

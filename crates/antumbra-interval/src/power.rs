@@ -65,8 +65,11 @@ fn integer_down(x: f64, n: i32) -> f64 {
     match n.unsigned_abs() {
         m if m > LONGEST_CHAIN => real_down(x, f64::from(n)),
         m if n > 0 => chain_down(x, m),
-        // 1/inf = 0 is a lower bound. The chain upwards is not 0: nobody asks for a negative power of exactly 0.
-        m => div_down(1.0, chain_up(x, m)),
+        m => match chain_up(x, m) {
+            power if power.is_normal() => div_down(1.0, power),
+            // The chain over- or underflowed where its reciprocal may be a number that can still be told.
+            _ => real_down(x, f64::from(n)),
+        },
     }
 }
 
@@ -77,8 +80,8 @@ fn integer_up(x: f64, n: i32) -> f64 {
         m if m > LONGEST_CHAIN => real_up(x, f64::from(n)),
         m if n > 0 => chain_up(x, m),
         m => match chain_down(x, m) {
-            0.0 => f64::INFINITY,
-            power => div_up(1.0, power),
+            power if power.is_normal() && power < f64::MAX => div_up(1.0, power),
+            _ => real_up(x, f64::from(n)),
         },
     }
 }

@@ -6,7 +6,7 @@
 //!
 //! **Proof.** Rump, Zimmermann, Boldo, Melquiond, *Computing predecessor and successor in rounding to nearest*, BIT 49
 //! (2009), theorem 2.2: for every finite `r`, the computed `r - e` is at most the predecessor of `r` and the computed
-//! `r + e` at least its successor; equality holds but for `|r|` in about `[2^-1022, 2^-1021]`, where the step may be two
+//! `r + e` at least its successor; equality holds but for `|r|` in about `[2^-1022, 2^-1020]`, where the step may be two
 //! units. A real number that rounds to the nearest `r` lies between these two neighbours. Overflow: a result `+inf` of
 //! finite operands means a value above the largest float, so its lower bound is `MAX`; its upper bound stays `+inf`.
 //!
@@ -52,8 +52,8 @@ pub(crate) fn greater(a: f64, b: f64) -> f64 {
 #[must_use]
 pub fn add_down(a: f64, b: f64) -> f64 {
     let r = a + b;
-    // A sum of two floats that rounds to 0 is 0: both are multiples of eta. This keeps x^2 + y^2 >= 0.
-    if (r == 0.0) | (a == 0.0) | (b == 0.0) { r } else { next_down(r) }
+    let e = sum_error(a, b, r);
+    if r == f64::INFINITY { f64::MAX } else { r - e }
 }
 
 /// Upper bound of `a + b`, exact where a term or the rounded sum is 0.
@@ -61,7 +61,15 @@ pub fn add_down(a: f64, b: f64) -> f64 {
 #[must_use]
 pub fn add_up(a: f64, b: f64) -> f64 {
     let r = a + b;
-    if (r == 0.0) | (a == 0.0) | (b == 0.0) { r } else { next_up(r) }
+    let e = sum_error(a, b, r);
+    if r == f64::NEG_INFINITY { f64::MIN } else { r + e }
+}
+
+/// The step outward for `r = fl(a + b)`: none where a term is 0, nor where r is: a sum of two floats that rounds to 0 is 0,
+/// because both are multiples of eta. This keeps `x^2 + y^2 >= 0`. (A masked number is cheaper than a choice of results.)
+#[inline(always)]
+fn sum_error(a: f64, b: f64, r: f64) -> f64 {
+    if (r == 0.0) | (a == 0.0) | (b == 0.0) { 0.0 } else { r.abs() * PHI + ETA }
 }
 
 /// Lower bound of `a - b`, exact where a term or the rounded difference is 0.
