@@ -9,6 +9,7 @@
 use super::{
     Affine,
     point::{bounds, exact},
+    {greater, lesser},
 };
 use crate::Interval;
 
@@ -70,7 +71,12 @@ impl Piece {
         }
         let ends = start.hull(self.at_hi - a * exact(self.hi));
         let p = curve.touch(alpha, self.lo, self.hi);
-        let p = if p.is_nan() { x.mid() } else { p.clamp(self.lo, self.hi) };
+        let p = if p.is_nan() {
+            // The slope is never alpha: the tangent at the end where the deviation is extreme.
+            if (curve.slope(x.mid()).mid() > alpha) == (self.bend == Bend::Convex) { self.lo } else { self.hi }
+        } else {
+            lesser(greater(p, self.lo), self.hi)
+        };
         let tangent = curve.value(p) - a * exact(p) + (curve.slope(p) - a) * (x - exact(p));
         match self.bend {
             Bend::Convex => bounds(tangent.lo(), ends.hi()),
@@ -112,7 +118,7 @@ impl<'a, C: Curve> Pieces<'a, C> {
 
     /// The range cut at the inflection 0 if it is inside.
     pub(super) fn cut_at_zero(curve: &'a C, (lo, hi): (f64, f64), left: Bend, right: Bend) -> Self {
-        let pieces = Self::starting(curve, lo).until(hi.min(0.0), left);
+        let pieces = Self::starting(curve, lo).until(lesser(hi, 0.0), left);
         pieces.until(hi, right)
     }
 
@@ -146,7 +152,8 @@ impl<'a, C: Curve> Pieces<'a, C> {
     /// A good `alpha`.
     ///
     /// One bend: the secant, for which the extreme deviations are at both ends and at one inner point (Chebyshev). Cut
-    /// ranges: for a cubic over `m +- r` the best slope is `h'(m) + 3/4 (secant - h'(m))`.
+    /// ranges: for a cubic over `m +- r` the best slope is `secant + (h'(m) - secant)/4`; `h'(m)` is limited to
+    /// `[0, 7/3] secant`, which suits a cube root (infinite slope) and a step (saturated `tanh`) too.
     fn chebyshev(&self) -> f64 {
         let (lo, hi) = (self.list[0].lo, self.end);
         let secant = (self.at_end.mid() - self.list[0].at_lo.mid()) / (hi - lo);
@@ -156,19 +163,20 @@ impl<'a, C: Curve> Pieces<'a, C> {
         } else if self.len == 1 {
             secant
         } else {
-            0.75 * secant + 0.25 * middle()
+            let ratio = middle() / secant;
+            let limited = if ratio < 7.0 / 3.0 { if ratio > 0.0 { ratio } else { 0.0 } } else { 7.0 / 3.0 };
+            secant * (0.75 + 0.25 * limited)
         };
         if alpha.is_finite() { alpha } else { 0.0 }
     }
 
     /// The form of `h(x)`; `x` takes values of the range only, where `h` is defined.
     ///
-    /// Falls back to centre and radius of the range of `h` if that error is no larger. As `rad h(X) >= |alpha| rad X` for
-    /// a secant slope, that is tried only if the linear error is as large.
+    /// Falls back to centre and radius of the range of `h` if that error is no larger; tried only if the linear error
+    /// exceeds half the difference of the values at both ends, as the radius is at least that.
     pub(super) fn apply<const N: usize>(&self, x: &Affine<N>, fit: Fit) -> Affine<N> {
         let alpha = self.chebyshev();
         let linear = x.scale_add(alpha, self.deviation(alpha));
-        let radius = 0.5 * (self.end - self.list[0].lo);
         if fit == Fit::Positive && !linear.range().certainly_positive() {
             let flat = self.deviation(0.0);
             if flat.certainly_positive() {
@@ -184,8 +192,8 @@ impl<'a, C: Curve> Pieces<'a, C> {
                 return narrower(x.scale_add(alpha, self.deviation(alpha)), Affine::constant(flat));
             }
         }
-        // Written so that a NaN chooses the comparison.
-        if linear.e < alpha.abs() * radius { linear } else { narrower(linear, Affine::constant(self.deviation(0.0))) }
+        let rise = 0.5 * (self.at_end.mid() - self.list[0].at_lo.mid()).abs();
+        if linear.e < rise { linear } else { narrower(linear, Affine::constant(self.deviation(0.0))) }
     }
 }
 

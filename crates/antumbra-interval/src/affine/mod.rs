@@ -171,7 +171,19 @@ fn centre_radius(k: Interval) -> (f64, f64) {
     let (lo, hi) = (k.lo(), k.hi());
     let m = 0.5 * lo + 0.5 * hi;
     let (below, above) = (m - lo, hi - m);
-    let r = if below > above { below } else { above };
+    let r = greater(below, above);
     // NaN and infinity stay: NaN.next_up() is NaN.
     (m, if r == 0.0 { 0.0 } else { r.next_up() })
+}
+
+/// The larger one of two numbers that are not NaN; else `y`.
+#[inline(always)]
+fn greater(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
+}
+
+/// The smaller one of two numbers that are not NaN; else `y`.
+#[inline(always)]
+fn lesser(x: f64, y: f64) -> f64 {
+    if x < y { x } else { y }
 }
