@@ -220,7 +220,8 @@ impl<P: Apex<N>, const N: usize> Slope<P, N> {
         let both = self.apex.range().hull(self.value.range());
         let middle = self.apex.shift(self.value).mul_f64(0.5);
         let d = exact((-self.apex).shift(self.value).range().magnitude());
-        let remainder = h.third_range(both) * (d.sqr() / exact(24.0));
+        // (v - p)^2 is anything from 0 to d^2.
+        let remainder = h.third_range(both) * (d.sqr() / exact(24.0)).hull(Interval::ZERO);
         let curved = h.first(middle).add_interval(remainder);
         Self { apex, value, slope: self.slope * narrower(curved, Affine::constant(h.first_range(both))) }
     }
