@@ -1,10 +1,10 @@
 //! Affine forms: containment against exact arithmetic, tightness, order of convergence, overflow and NaN.
 mod affine_samples;
 
-use affine_samples::{Random, allows, exact, meets, member, neighbours, plane};
+use affine_samples::{
+    Dyadic, Random, allows, allows_ratio, exact, meets, member, neighbours, ordered, plane, power_of_two,
+};
 use antumbra_interval::{Interval, affine::Affine};
-use num_rational::BigRational;
-use num_traits::{Pow, Signed, Zero};
 
 /// Ring operators on nasty forms, exactly.
 fn ring<const N: usize>(seed: u64, rounds: usize) {
@@ -12,6 +12,7 @@ fn ring<const N: usize>(seed: u64, rounds: usize) {
     let mut known = 0;
     for _ in 0..rounds {
         let (x, y) = (r.nasty_form::<N>(), r.nasty_form::<N>());
+        let same = x;
         let k = r.nasty();
         let h = r.nasty().abs();
         let wide = Interval::new(k - h, k + h);
@@ -30,10 +31,7 @@ fn ring<const N: usize>(seed: u64, rounds: usize) {
             x.abs(),
             x.powi(3),
             x.powi(4),
-            x.recip(),
-            x / y,
             x * x,
-            x - x,
             x.max(x.mul_f64(0.5)),
         ];
         known += forms.iter().filter(|f| f.is_known()).count();
@@ -41,53 +39,46 @@ fn ring<const N: usize>(seed: u64, rounds: usize) {
             let s = r.symbols::<N>();
             let (a, b) = (member(&x, &s, r.symbol()), member(&y, &s, r.symbol()));
             let (q, w) = (exact(k), exact(if r.below(2) == 0 { wide.lo() } else { wide.hi() }));
-            let zero = BigRational::zero();
+            let (zero, one) = (exact(0.0), exact(1.0));
+            let larger = |a: &Dyadic, b: &Dyadic| if a > b { a.clone() } else { b.clone() };
+            let smaller = |a: &Dyadic, b: &Dyadic| if a < b { a.clone() } else { b.clone() };
+            let square = &a * &a;
             let values = [
-                Some(&a + &b),
-                Some(&a - &b),
-                Some(&a * &b),
-                Some(&a * &a),
-                Some(-&a),
-                Some(&a * &q),
-                Some(&a + &q),
-                Some(&a * &w),
-                Some(&a + &w),
-                Some(a.clone().max(b.clone())),
-                Some(a.clone().min(b.clone())),
-                Some(a.abs()),
-                Some(Pow::pow(&a, 3u32)),
-                Some(Pow::pow(&a, 4u32)),
-                (a != zero).then(|| a.recip()),
-                (b != zero).then(|| &a / &b),
-                Some(&a * &a),
-                Some(zero.clone()),
-                Some(a.clone().max(&a * exact(0.5))),
+                &a + &b,
+                &a - &b,
+                &a * &b,
+                square.clone(),
+                &zero - &a,
+                &a * &q,
+                &a + &q,
+                &a * &w,
+                &a + &w,
+                larger(&a, &b),
+                smaller(&a, &b),
+                a.abs(),
+                &square * &a,
+                &square * &square,
+                square,
+                larger(&a, &(&a * &exact(0.5))),
             ];
             for (i, (f, v)) in forms.iter().zip(&values).enumerate() {
-                if let Some(v) = v {
-                    // x - x: both are the same member only if the form has no error.
-                    if i == 17 && x.error() > 0.0 {
-                        continue;
-                    }
-                    assert!(allows(f, &s, v), "operator {i} of {x:?}, {y:?}, {k:e} at {s:?}: {f:?}");
-                }
+                assert!(allows(f, &s, v), "operator {i} of {x:?}, {y:?}, {k:e} at {s:?}: {f:?}");
             }
+            assert!(a.is_zero() || allows_ratio(&x.recip(), &s, &one, &a), "1/{x:?} at {s:?}");
+            assert!(b.is_zero() || allows_ratio(&(x / y), &s, &a, &b), "{x:?} / {y:?} at {s:?}");
+            // The same member on both sides.
+            assert!(x.error() > 0.0 || allows(&(x - same), &s, &zero), "{x:?}");
         }
     }
-    assert!(known > rounds * forms_expected(), "mostly unknown: {known} of {rounds} rounds");
-}
-
-/// At least so many of the operators of a round of `ring` are known on average.
-const fn forms_expected() -> usize {
-    13
+    assert!(known > 14 * rounds, "mostly unknown: {known} forms in {rounds} rounds of 16");
 }
 
 #[test]
 fn ring_operators_contain_the_exact_value() {
-    ring::<0>(1, 700);
-    ring::<1>(2, 1500);
-    ring::<3>(3, 1000);
-    ring::<5>(4, 600);
+    ring::<0>(1, 3000);
+    ring::<1>(2, 8000);
+    ring::<3>(3, 8000);
+    ring::<5>(4, 4000);
 }
 
 type Row<const N: usize> =
@@ -120,7 +111,7 @@ fn functions<const N: usize>() -> Vec<Row<N>> {
         ("pow -1.5", |x| x.pow(number(-1.5)), |x| core_math::pow(x, -1.5), |x| x.pow(Interval::point(-1.5)), 0.01, 9.0),
         ("2 pow", |x| number(2.0).pow(x), |x| core_math::pow(2.0, x), |x| Interval::point(2.0).pow(x), -9.0, 9.0),
         ("floor", Affine::floor, f64::floor, Interval::floor, -4.0, 4.0),
-        ("sign", Affine::sign, |x| if x == 0.0 { 0.0 } else { x.signum() }, Interval::sign, -1.0, 1.0),
+        ("sign", Affine::sign, |x| f64::from(i8::from(x > 0.0) - i8::from(x < 0.0)), Interval::sign, -1.0, 1.0),
         ("abs", Affine::abs, f64::abs, Interval::abs, -1.0, 1.0),
     ]
 }
@@ -150,7 +141,7 @@ fn elementary<const N: usize>(seed: u64, rounds: usize) {
                     continue;
                 }
                 checked += 1;
-                let (below, above) = (u.min(v).next_down(), u.max(v).next_up());
+                let (below, above) = (ordered(u, v).0.next_down(), ordered(u, v).1.next_up());
                 assert!(meets(&f, &s, below, above), "{name} of {x:?} at {s:?}: {f:?}, true in [{below}, {above}]");
             }
         }
@@ -161,9 +152,9 @@ fn elementary<const N: usize>(seed: u64, rounds: usize) {
 
 #[test]
 fn elementary_functions_contain_the_true_value() {
-    elementary::<1>(11, 500);
-    elementary::<3>(12, 250);
-    elementary::<5>(13, 100);
+    elementary::<1>(11, 2000);
+    elementary::<3>(12, 1500);
+    elementary::<5>(13, 500);
 }
 
 /// Extreme arguments neither panic nor lie.
@@ -171,7 +162,7 @@ fn elementary_functions_contain_the_true_value() {
 fn elementary_functions_of_extreme_arguments() {
     let mut r = Random(99);
     for (name, form, function, ..) in functions::<1>() {
-        for _ in 0..400 {
+        for _ in 0..1500 {
             let c = r.nasty() * if r.below(4) == 0 { 1e150 } else { 1.0 };
             let x = Affine::linear(c, [r.nasty()], if r.below(2) == 0 { 0.0 } else { r.nasty().abs() });
             let f = form(x);
@@ -185,7 +176,7 @@ fn elementary_functions_of_extreme_arguments() {
                 if u.is_nan() || v.is_nan() || jumps || waves {
                     continue;
                 }
-                let (below, above) = (u.min(v).next_down(), u.max(v).next_up());
+                let (below, above) = (ordered(u, v).0.next_down(), ordered(u, v).1.next_up());
                 assert!(meets(&f, &s, below, above), "{name} of {x:?} at {s:?}: {f:?}, true in [{below:e}, {above:e}]");
             }
         }
@@ -205,7 +196,8 @@ fn atan2_contains_the_angle() {
             let (a, b) = (member(&y, &s, r.symbol()), member(&x, &s, r.symbol()));
             let ((y0, y1), (x0, x1)) = (neighbours(&a), neighbours(&b));
             let v = [(y0, x0), (y0, x1), (y1, x0), (y1, x1)].map(|(y, x)| core_math::atan2(y, x));
-            let (lo, hi) = v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (l.min(*v), h.max(*v)));
+            let (lo, hi) =
+                v.iter().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), v| (ordered(l, *v).0, ordered(h, *v).1));
             assert!(meets(&f, &s, lo.next_down(), hi.next_up()), "{y:?} {x:?} {f:?}");
         }
     }
@@ -246,7 +238,8 @@ fn slope_scale(name: &str, function: fn(f64) -> f64, x: f64) -> f64 {
 /// Halving the argument's width divides the error by four.
 #[test]
 fn smooth_functions_converge_quadratically() {
-    let smooth: [(fn(Affine<3>) -> Affine<3>, f64); 18] = [
+    type Function = fn(Affine<3>) -> Affine<3>;
+    let smooth: [(Function, f64); 18] = [
         (Affine::sqrt, 1.3),
         (Affine::cbrt, -0.7),
         (Affine::exp, 0.4),
@@ -269,7 +262,7 @@ fn smooth_functions_converge_quadratically() {
     for (i, (form, at)) in smooth.into_iter().enumerate() {
         let error = |w: f64| form(Affine::linear(at, [w, -0.5 * w, 0.2 * w], 0.0)).error();
         for k in 5..9 {
-            let (wide, narrow) = (error(2f64.powi(-k)), error(2f64.powi(-k - 1)));
+            let (wide, narrow) = (error(power_of_two(-k)), error(power_of_two(-k - 1)));
             let order = core_math::log2(wide / narrow);
             assert!((1.85..2.15).contains(&order), "function {i}: order {order} at width 2^-{k}");
         }
@@ -328,7 +321,8 @@ fn choices_are_tight_where_settled() {
 #[test]
 fn symbols_cancel() {
     let x = Affine::<3>::linear(1.0, [0.5, 0.25, 2.0], 0.0);
-    assert!((x - x).range().magnitude() < 1e-14);
+    let same = x;
+    assert!((x - same).range().magnitude() < 1e-14);
     assert!((x.sqr() - x * x).error() < 2.0 * x.sqr().error() + (x * x).error());
     // (x + 1)^2 - x^2 - 2x = 1.
     let one = x.add_f64(1.0).sqr() - x.sqr() - x.mul_f64(2.0);
@@ -355,7 +349,7 @@ fn spanning_and_constant_contain_their_interval() {
     let mut r = Random(32);
     for _ in 0..3000 {
         let (p, q) = (r.nasty(), r.nasty());
-        let k = Interval::new(p.min(q), p.max(q));
+        let k = Interval::new(ordered(p, q).0, ordered(p, q).1);
         let (x, c) = (Affine::<2>::spanning(1, k), Affine::<2>::constant(k));
         let s = r.symbols::<2>();
         let t = (exact(s[1]) + exact(1.0)) * exact(0.5);

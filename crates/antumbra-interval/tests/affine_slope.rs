@@ -1,12 +1,11 @@
 //! Slopes and duals: `f(P + t D) = f(P) + t g` on every operator and on random expressions, tightness, convergence.
 mod affine_samples;
 
-use affine_samples::{Random, exact, meets, neighbours, plane};
+use affine_samples::{Dyadic, Random, exact, meets, neighbours, plane, power_of_two};
 use antumbra_interval::{
     Interval,
     affine::{Affine, Apex, Dual, Slope},
 };
-use num_rational::BigRational;
 
 /// What an expression needs of a number.
 trait Number: Copy {
@@ -161,7 +160,7 @@ fn known(x: Interval) -> bool {
     !x.is_empty() && x.lo().is_finite() && x.hi().is_finite()
 }
 
-fn around(x: &BigRational) -> Interval {
+fn around(x: &Dyadic) -> Interval {
     let (lo, hi) = neighbours(x);
     Interval::new(lo, hi)
 }
@@ -175,7 +174,7 @@ struct Path<const N: usize> {
 
 impl<const N: usize> Path<N> {
     fn random(r: &mut Random, thin_apex: bool) -> Self {
-        let scale = 2f64.powi(-(r.below(12) as i32));
+        let scale = power_of_two(-(r.below(12) as i32));
         let small = |r: &mut Random, k: f64| Affine::linear(0.0, std::array::from_fn(|_| k * scale * r.signed()), 0.0);
         let moved = |r: &mut Random, c: f64, k: f64| {
             let x = small(r, k);
@@ -218,7 +217,7 @@ fn identity<P: Apex<N>, const N: usize>(
                 let s = r.symbols::<N>();
                 let t = plane(&path.t, &s);
                 let start = path.apex.map(|p| plane(&p, &s));
-                let end: [_; 3] = std::array::from_fn(|i| &start[i] + &t * plane(&path.direction[i], &s));
+                let end: [_; 3] = std::array::from_fn(|i| &start[i] + &(&t * &plane(&path.direction[i], &s)));
                 let p = f.eval(&start.each_ref().map(around));
                 let v = f.eval(&end.each_ref().map(around));
                 if known(v) {
@@ -274,7 +273,7 @@ fn duals_contain_the_derivative() {
             let at = |h: f64| {
                 let t = plane(&path.t, &s) + exact(h);
                 let point: [_; 3] =
-                    std::array::from_fn(|i| plane(&path.apex[i], &s) + &t * plane(&path.direction[i], &s));
+                    std::array::from_fn(|i| plane(&path.apex[i], &s) + &t * &plane(&path.direction[i], &s));
                 f.eval(&point.each_ref().map(around))
             };
             let value = at(0.0);
@@ -319,7 +318,7 @@ fn slopes_of_smooth_functions_converge_quadratically() {
             (f.eval(&[x; 3]).slope.error(), f.eval(&[y; 3]).derivative.error())
         };
         for k in 6..9 {
-            let ((a, b), (c, d)) = (error(2f64.powi(-k)), error(2f64.powi(-k - 1)));
+            let ((a, b), (c, d)) = (error(power_of_two(-k)), error(power_of_two(-k - 1)));
             for (what, order) in [("slope", core_math::log2(a / c)), ("dual", core_math::log2(b / d))] {
                 assert!((1.8..2.3).contains(&order), "{what} of {f:?}: order {order} at width 2^-{k}");
             }
@@ -336,7 +335,7 @@ fn slopes_decide_where_values_cancel() {
         Box::new(Expression::Constant(1.0)),
     );
     for k in 0..300 {
-        let w = 2f64.powi(-k);
+        let w = power_of_two(-k);
         let t = Affine::<1>::spanning(0, Interval::new(0.0, w));
         let x = Slope::coordinate(Interval::ZERO, t, Affine::constant(Interval::ONE));
         let y = f.eval(&[x; 3]);
@@ -346,14 +345,19 @@ fn slopes_decide_where_values_cancel() {
     }
 }
 
+/// `x` is a part of `[lo, hi]`, up to rounding.
+fn within(x: Interval, lo: f64, hi: f64) -> bool {
+    x.lo() >= lo - 1e-14 && x.hi() <= hi + 1e-14
+}
+
 #[test]
 fn kinks_lie_between_both_slopes() {
     let x = Slope::coordinate(Interval::ZERO, Affine::<1>::symbol(0), Affine::constant(Interval::ONE));
     let range = |y: Slope<Interval, 1>| y.slope.range();
-    assert!(range(x.abs()).is_within(-1.0, 1.0));
+    assert!(within(range(x.abs()), -1.0, 1.0));
     let twice = x.mul_f64(2.0);
-    assert!(range(x.max(twice)).is_within(1.0, 2.0));
-    assert!(range(x.min(twice)).is_within(1.0, 2.0));
+    assert!(within(range(x.max(twice)), 1.0, 2.0));
+    assert!(within(range(x.min(twice)), 1.0, 2.0));
     // Settled: the slope of the branch.
     let far = x + Slope::constant(Interval::point(9.0));
     assert_eq!(range(far.max(x)), range(far));
@@ -361,16 +365,6 @@ fn kinks_lie_between_both_slopes() {
     assert_eq!(far.mul_f64(0.01).floor().slope, Affine::ZERO);
     assert_eq!(x.floor().slope, Affine::UNKNOWN);
     assert_eq!(x.sign().slope, Affine::UNKNOWN);
-}
-
-trait Within {
-    fn is_within(self, lo: f64, hi: f64) -> bool;
-}
-impl Within for Interval {
-    /// Up to rounding.
-    fn is_within(self, lo: f64, hi: f64) -> bool {
-        self.lo() >= lo - 1e-14 && self.hi() <= hi + 1e-14
-    }
 }
 
 /// Poles, domain edges and overflow leave slopes unknown or true, never NaN.
