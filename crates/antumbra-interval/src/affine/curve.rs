@@ -7,7 +7,7 @@
 //! any `p` of `[l, u]`: `h(x) - alpha x >= h(p) - alpha p + (h'(p) - alpha)(x - p)`. The best `p` has `h'(p) = alpha`; an
 //! approximate one costs only `|h'(p) - alpha| (u - l)`. Concave: the same upside down.
 use super::{
-    Affine,
+    Affine, TINY, U,
     point::{bounds, exact},
     {greater, lesser},
 };
@@ -64,24 +64,69 @@ struct Piece {
 impl Piece {
     /// Enclosure of `h(x) - alpha x` for `x` in the piece.
     fn deviation<C: Curve>(&self, curve: &C, alpha: f64) -> Interval {
-        let (a, x) = (exact(alpha), bounds(self.lo, self.hi));
-        let start = self.at_lo - a * exact(self.lo);
-        if self.bend == Bend::Gap {
-            return start + (Interval::new(-2.0, 2.0) - a) * (x - exact(self.lo));
+        match self.bend {
+            Bend::Gap => {
+                let (a, x) = (exact(alpha), bounds(self.lo, self.hi));
+                let start = self.at_lo - a * exact(self.lo);
+                start + (Interval::new(-2.0, 2.0) - a) * (x - exact(self.lo))
+            }
+            Bend::Convex => {
+                let (low, high) = self.convex(curve, alpha, |y| y);
+                bounds(low, high)
+            }
+            Bend::Concave => {
+                // -h is convex.
+                let (low, high) = self.convex(curve, alpha, |y| -y);
+                bounds(-high, -low)
+            }
         }
-        let ends = start.hull(self.at_hi - a * exact(self.hi));
+    }
+
+    /// Bounds of `k(x) - beta x`, where `k = h`, `beta = alpha`, or both mirrored, so that `k` is convex. NaN if unknown.
+    fn convex<C: Curve>(&self, curve: &C, alpha: f64, mirror: fn(Interval) -> Interval) -> (f64, f64) {
+        let beta = mirror(exact(alpha)).lo();
+        let high = greatest(
+            above_line(mirror(self.at_lo).hi(), beta, self.lo),
+            above_line(mirror(self.at_hi).hi(), beta, self.hi),
+        );
         let p = curve.touch(alpha, self.lo, self.hi);
         let p = if p.is_nan() {
-            // The slope is never alpha: the tangent at the end where the deviation is extreme.
-            if (curve.slope(x.mid()).mid() > alpha) == (self.bend == Bend::Convex) { self.lo } else { self.hi }
+            // The slope is never alpha: the tangent at the end where the deviation is least.
+            let middle = 0.5 * self.lo + 0.5 * self.hi;
+            if mirror(curve.slope(middle)).mid() > beta { self.lo } else { self.hi }
         } else {
             lesser(greater(p, self.lo), self.hi)
         };
-        let tangent = curve.value(p) - a * exact(p) + (curve.slope(p) - a) * (x - exact(p));
-        match self.bend {
-            Bend::Convex => bounds(tangent.lo(), ends.hi()),
-            _ => bounds(ends.lo(), tangent.hi()),
-        }
+        let slope = mirror(curve.slope(p));
+        // (k'(p) - beta)(p - x), p - x in [p - hi, p - lo], is largest at an end: for the steepest slope at lo, for the
+        // least one at hi.
+        let fall = greatest(
+            product_above((slope.hi() - beta).next_up(), p, self.lo),
+            product_above((beta - slope.lo()).next_up(), self.hi, p),
+        );
+        (-(above_line(-mirror(curve.value(p)).lo(), -beta, p) + fall).next_up(), high)
+    }
+}
+
+/// Upper bound of `v - beta x`. Roundings: the product `u |beta x| + eta/2`, two sums `u (|v| + |beta x|)` each.
+fn above_line(v: f64, beta: f64, x: f64) -> f64 {
+    let line = beta * x;
+    (v - line) + (4.0 * U * (v.abs() + line.abs()) + TINY)
+}
+
+/// Upper bound of `max(g, 0) (y - x)` for floats `x <= y`; `g` may be infinite.
+fn product_above(g: f64, y: f64, x: f64) -> f64 {
+    if x == y || g <= 0.0 { 0.0 } else { (g * (y - x).next_up()).next_up() }
+}
+
+/// The larger one, NaN if there is one.
+fn greatest(x: f64, y: f64) -> f64 {
+    if x >= y {
+        x
+    } else if x < y {
+        y
+    } else {
+        f64::NAN
     }
 }
 

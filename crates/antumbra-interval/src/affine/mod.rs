@@ -58,8 +58,15 @@ impl<const N: usize> Affine<N> {
 
     /// The form if `size`, which bounds `|c|, |a_i|, e` and all that led to them, is below `2^1000`; else unknown.
     #[inline(always)]
-    const fn sealed(c: f64, a: [f64; N], e: f64, size: f64) -> Self {
-        if size < LARGE { Self { c, a, e } } else { Self::UNKNOWN }
+    fn sealed(c: f64, a: [f64; N], e: f64, size: f64) -> Self {
+        if size < LARGE { Self { c, a, e } } else { Self::overflowed() }
+    }
+
+    /// Out of line, so that [`Affine::sealed`] is a branch never taken, not `N + 2` selections.
+    #[cold]
+    #[inline(never)]
+    const fn overflowed() -> Self {
+        Self::UNKNOWN
     }
 
     /// `c + sum a_i s_i +- e`. [`Affine::UNKNOWN`] if a number is NaN or too large, or `e < 0`.
