@@ -13,10 +13,12 @@ trait Number: Copy {
     fn unary(self, op: Unary) -> Self;
     fn binary(self, o: Self, op: Binary) -> Self;
     fn powi(self, n: i32) -> Self;
+    /// `k self + k`.
+    fn line(self, k: Interval) -> Self;
 }
 
 macro_rules! number {
-    ([$($bound:tt)*] $type:ty, $constant:expr) => {
+    ([$($bound:tt)*] $type:ty, $constant:expr, $line:expr) => {
         impl $($bound)* Number for $type {
             fn constant(k: Interval) -> Self {
                 let make: fn(Interval) -> Self = $constant;
@@ -59,12 +61,16 @@ macro_rules! number {
             fn powi(self, n: i32) -> Self {
                 self.powi(n)
             }
+            fn line(self, k: Interval) -> Self {
+                let line: fn(Self, Interval) -> Self = $line;
+                line(self, k)
+            }
         }
     };
 }
-number!([] Interval, |k| k);
-number!([<P: Apex<N>, const N: usize>] Slope<P, N>, Slope::constant);
-number!([<const N: usize>] Dual<N>, Dual::constant);
+number!([] Interval, |k| k, |x, k| x * k + k);
+number!([<P: Apex<N>, const N: usize>] Slope<P, N>, Slope::constant, |x, k| x.mul_interval(k).add_interval(k));
+number!([<const N: usize>] Dual<N>, Dual::constant, |x, k| x.mul_interval(k).add_interval(k));
 
 #[derive(Clone, Copy, Debug)]
 enum Unary {
@@ -114,6 +120,7 @@ enum Expression {
     Unary(Unary, Box<Expression>),
     Binary(Binary, Box<Expression>, Box<Expression>),
     Powi(i32, Box<Expression>),
+    Line(f64, Box<Expression>),
 }
 
 impl Expression {
@@ -135,6 +142,7 @@ impl Expression {
             Self::Unary(op, a) => a.eval(x).unary(*op),
             Self::Binary(op, a, b) => a.eval(x).binary(b.eval(x), *op),
             Self::Powi(n, a) => a.eval(x).powi(*n),
+            Self::Line(k, a) => a.eval(x).line(Interval::point(*k)),
         }
     }
 }
@@ -148,6 +156,7 @@ fn expressions(r: &mut Random, random: usize) -> Vec<Expression> {
     all.extend(
         [0.3, 2.5, -1.5, 1.0].map(|y| Expression::Binary(Binary::Pow, axis(1), Box::new(Expression::Constant(y)))),
     );
+    all.push(Expression::Line(-0.7, axis(1)));
     all.extend((0..random).map(|_| {
         let depth = 1 + r.below(3) as u32;
         Expression::random(r, depth)

@@ -59,14 +59,12 @@ impl<const N: usize> Affine<N> {
     /// The form if `size`, which bounds `|c|, |a_i|, e` and all that led to them, is below `2^1000`; else unknown.
     #[inline(always)]
     fn sealed(c: f64, a: [f64; N], e: f64, size: f64) -> Self {
-        if size < LARGE { Self { c, a, e } } else { Self::overflowed() }
-    }
-
-    /// Out of line, so that [`Affine::sealed`] is a branch never taken, not `N + 2` selections.
-    #[cold]
-    #[inline(never)]
-    const fn overflowed() -> Self {
-        Self::UNKNOWN
+        if size < LARGE {
+            Self { c, a, e }
+        } else {
+            overflow();
+            Self::UNKNOWN
+        }
     }
 
     /// `c + sum a_i s_i +- e`. [`Affine::UNKNOWN`] if a number is NaN or too large, or `e < 0`.
@@ -182,6 +180,10 @@ fn centre_radius(k: Interval) -> (f64, f64) {
     // NaN and infinity stay: NaN.next_up() is NaN.
     (m, if r == 0.0 { 0.0 } else { r.next_up() })
 }
+
+/// Marks the branch of [`Affine::sealed`] that is hardly ever taken, else it becomes `N + 2` selections.
+#[cold]
+const fn overflow() {}
 
 /// The larger one of two numbers that are not NaN; else `y`.
 #[inline(always)]
