@@ -5,7 +5,7 @@ use std::ops::{Add, Mul, Neg, Sub};
 
 impl<const N: usize> Neg for Affine<N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn neg(self) -> Self {
         Self { c: -self.c, a: self.a.map(|v| -v), e: self.e }
     }
@@ -25,7 +25,7 @@ impl<const N: usize> Affine<N> {
 
     /// `x + k` for an exact number `k`.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn add_f64(self, k: f64) -> Self {
         let c = self.c + k;
         // One rounding, |error| <= u |c|, and u (e + ...) for the sum below; no eta, as in `sum`.
@@ -35,7 +35,7 @@ impl<const N: usize> Affine<N> {
 
     /// `x + k` for any number (or function) in `k`.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn add_interval(self, k: Interval) -> Self {
         let (m, r) = centre_radius(k);
         let c = self.c + m;
@@ -46,7 +46,7 @@ impl<const N: usize> Affine<N> {
 
     /// `x * k` for an exact number `k`: `N + 2` products, each within `u |product| + eta/2`.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn mul_f64(self, k: f64) -> Self {
         let (c, a, t) = (self.c * k, self.a.map(|v| v * k), self.e * k.abs());
         let w = a.iter().fold(c.abs() + t, |s, v| s + v.abs());
@@ -58,7 +58,7 @@ impl<const N: usize> Affine<N> {
     /// `x k = m x + d x`, `|d| <= r`, `|x| <= S = |c| + |a|_1 + e`: the error is `|m| e + r S`. Steps, each times
     /// `u S (|m| + r)`: coefficients 1, `S` has `N + 1` sums, then product, sum and the last two sums.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn mul_interval(self, k: Interval) -> Self {
         let (m, r) = centre_radius(k);
         let s = self.a.iter().fold(self.c.abs() + self.e, |s, v| s + v.abs());
@@ -71,7 +71,7 @@ impl<const N: usize> Affine<N> {
     ///
     /// Error `|alpha| e + r`. Steps, each times `u w`, `w = |alpha| (|c| + |a|_1 + e) + |m| + r`: coefficients 2, error 2,
     /// last two sums 2; the rest is slack.
-    #[inline]
+    #[inline(always)]
     pub(super) fn scale_add(self, alpha: f64, d: Interval) -> Self {
         let (m, r) = centre_radius(d);
         let (c, a) = (self.c * alpha + m, self.a.map(|v| v * alpha));
@@ -86,7 +86,7 @@ impl<const N: usize> Affine<N> {
     /// `2c d = 2c a.s +- 2|c| e`. Steps, each times `u (|c| + R)^2`: coefficients at most `2N + 3` in all (`R^2/2` has
     /// `2N + 1`), error `2N + 3`, last two sums 2.
     #[must_use]
-    #[inline]
+    #[inline(always)]
     pub fn sqr(self) -> Self {
         let r = self.a.iter().fold(self.e, |s, v| s + v.abs());
         let (c, k, h) = (self.c.abs(), 2.0 * self.c, 0.5 * r * r);
@@ -103,14 +103,21 @@ impl<const N: usize> Affine<N> {
             1 => self,
             2 => self.sqr(),
             -1 => self.recip(),
+            _ if n > 0 && f64::from(n) * self.radius() <= 0.5 * self.c.abs() => self.repeated_product(n.unsigned_abs()),
             _ => self.integer_power(n),
         }
+    }
+
+    /// `x^n`, `n >= 1`, by squaring: cheap, and over a narrow range as tight (to second order) as one linearisation.
+    fn repeated_product(self, n: u32) -> Self {
+        // From the highest bit down, so that every factor is x itself.
+        (0..n.ilog2()).rev().fold(self, |p, bit| if n >> bit & 1 == 1 { p.sqr() * self } else { p.sqr() })
     }
 }
 
 impl<const N: usize> Add for Affine<N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn add(self, o: Self) -> Self {
         let mut a = self.a;
         for (x, y) in a.iter_mut().zip(o.a) {
@@ -122,7 +129,7 @@ impl<const N: usize> Add for Affine<N> {
 
 impl<const N: usize> Sub for Affine<N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn sub(self, o: Self) -> Self {
         let mut a = self.a;
         for (x, y) in a.iter_mut().zip(o.a) {
@@ -143,7 +150,7 @@ impl<const N: usize> Sub for Affine<N> {
 /// `R T + D/2 + |c_a| e_b + |c_b| e_a <= 3/2 size`, coefficients `N + 2`, last two sums 2: `4N + 9`.
 impl<const N: usize> Mul for Affine<N> {
     type Output = Self;
-    #[inline]
+    #[inline(always)]
     fn mul(self, o: Self) -> Self {
         let (mut r, mut t, mut q, mut d) = (self.e, o.e, 0.0, 0.0);
         let mut a = [0.0; N];

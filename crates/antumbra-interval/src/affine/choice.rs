@@ -2,6 +2,7 @@
 use super::{
     Affine, TINY, U,
     curve::narrower,
+    greater, lesser,
     point::{bounds, exact},
 };
 use crate::Interval;
@@ -41,9 +42,9 @@ impl<const N: usize> Affine<N> {
         } else if tilt <= lo || kink.is_nan() {
             1.0
         } else {
-            kink.clamp(0.0, 1.0)
+            lesser(greater(kink, 0.0), 1.0)
         };
-        let above = ((1.0 - w) * hi + self.e).max(o.e - w * lo);
+        let above = greater((1.0 - w) * hi + self.e, o.e - w * lo);
         let below = w * self.e + (1.0 - w) * o.e;
         let mut a = o.a;
         for (b, x) in a.iter_mut().zip(self.a) {
@@ -77,7 +78,7 @@ impl<const N: usize> Affine<N> {
             r += (x - y).abs();
             size += x.abs() + y.abs();
         }
-        let e = self.e.max(o.e) + 0.5 * r;
+        let e = greater(self.e, o.e) + 0.5 * r;
         Self::sealed(0.5 * self.c + 0.5 * o.c, a, e + (Self::CHOICE * size + TINY), size)
     }
 
@@ -95,16 +96,16 @@ impl<const N: usize> Affine<N> {
         if u <= 0.0 {
             return -self;
         }
-        let w = ((u + l) / (u - l)).clamp(-1.0, 1.0);
+        let w = lesser(greater((u + l) / (u - l), -1.0), 1.0);
         let (at_l, at_u) = (exact(-l) - exact(w) * exact(l), exact(u) - exact(w) * exact(u));
-        narrower(self.scale_add(w, bounds(0.0, at_l.hi().max(at_u.hi()))), Self::constant(x.abs()))
+        narrower(self.scale_add(w, bounds(0.0, greater(at_l.hi(), at_u.hi()))), Self::constant(x.abs()))
     }
 
     /// -1, 0 or 1.
     #[must_use]
     pub fn sign(self) -> Self {
         let x = self.range();
-        let of = |v: f64| if v == 0.0 { 0.0 } else { v.signum() };
+        let of = |v: f64| f64::from(i8::from(v > 0.0) - i8::from(v < 0.0));
         Self::constant(bounds(of(x.lo()), of(x.hi())))
     }
 

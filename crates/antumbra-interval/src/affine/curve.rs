@@ -7,8 +7,9 @@
 //! any `p` of `[l, u]`: `h(x) - alpha x >= h(p) - alpha p + (h'(p) - alpha)(x - p)`. The best `p` has `h'(p) = alpha`; an
 //! approximate one costs only `|h'(p) - alpha| (u - l)`. Concave: the same upside down.
 use super::{
-    Affine,
+    Affine, TINY, U,
     point::{bounds, exact},
+    {greater, lesser},
 };
 use crate::Interval;
 
@@ -63,19 +64,69 @@ struct Piece {
 impl Piece {
     /// Enclosure of `h(x) - alpha x` for `x` in the piece.
     fn deviation<C: Curve>(&self, curve: &C, alpha: f64) -> Interval {
-        let (a, x) = (exact(alpha), bounds(self.lo, self.hi));
-        let start = self.at_lo - a * exact(self.lo);
-        if self.bend == Bend::Gap {
-            return start + (Interval::new(-2.0, 2.0) - a) * (x - exact(self.lo));
-        }
-        let ends = start.hull(self.at_hi - a * exact(self.hi));
-        let p = curve.touch(alpha, self.lo, self.hi);
-        let p = if p.is_nan() { x.mid() } else { p.clamp(self.lo, self.hi) };
-        let tangent = curve.value(p) - a * exact(p) + (curve.slope(p) - a) * (x - exact(p));
         match self.bend {
-            Bend::Convex => bounds(tangent.lo(), ends.hi()),
-            _ => bounds(ends.lo(), tangent.hi()),
+            Bend::Gap => {
+                let (a, x) = (exact(alpha), bounds(self.lo, self.hi));
+                let start = self.at_lo - a * exact(self.lo);
+                start + (Interval::new(-2.0, 2.0) - a) * (x - exact(self.lo))
+            }
+            Bend::Convex => {
+                let (low, high) = self.convex(curve, alpha, |y| y);
+                bounds(low, high)
+            }
+            Bend::Concave => {
+                // -h is convex.
+                let (low, high) = self.convex(curve, alpha, |y| -y);
+                bounds(-high, -low)
+            }
         }
+    }
+
+    /// Bounds of `k(x) - beta x`, where `k = h`, `beta = alpha`, or both mirrored, so that `k` is convex. NaN if unknown.
+    fn convex<C: Curve>(&self, curve: &C, alpha: f64, mirror: fn(Interval) -> Interval) -> (f64, f64) {
+        let beta = mirror(exact(alpha)).lo();
+        let high = greatest(
+            above_line(mirror(self.at_lo).hi(), beta, self.lo),
+            above_line(mirror(self.at_hi).hi(), beta, self.hi),
+        );
+        let p = curve.touch(alpha, self.lo, self.hi);
+        let p = if p.is_nan() {
+            // The slope is never alpha: the tangent at the end where the deviation is least.
+            let middle = 0.5 * self.lo + 0.5 * self.hi;
+            if mirror(curve.slope(middle)).mid() > beta { self.lo } else { self.hi }
+        } else {
+            lesser(greater(p, self.lo), self.hi)
+        };
+        let slope = mirror(curve.slope(p));
+        // (k'(p) - beta)(p - x), p - x in [p - hi, p - lo], is largest at an end: for the steepest slope at lo, for the
+        // least one at hi.
+        let fall = greatest(
+            product_above((slope.hi() - beta).next_up(), p, self.lo),
+            product_above((beta - slope.lo()).next_up(), self.hi, p),
+        );
+        (-(above_line(-mirror(curve.value(p)).lo(), -beta, p) + fall).next_up(), high)
+    }
+}
+
+/// Upper bound of `v - beta x`. Roundings: the product `u |beta x| + eta/2`, two sums `u (|v| + |beta x|)` each.
+fn above_line(v: f64, beta: f64, x: f64) -> f64 {
+    let line = beta * x;
+    (v - line) + (4.0 * U * (v.abs() + line.abs()) + TINY)
+}
+
+/// Upper bound of `max(g, 0) (y - x)` for floats `x <= y`; `g` may be infinite.
+fn product_above(g: f64, y: f64, x: f64) -> f64 {
+    if x == y || g <= 0.0 { 0.0 } else { (g * (y - x).next_up()).next_up() }
+}
+
+/// The larger one, NaN if there is one.
+fn greatest(x: f64, y: f64) -> f64 {
+    if x >= y {
+        x
+    } else if x < y {
+        y
+    } else {
+        f64::NAN
     }
 }
 
@@ -112,7 +163,7 @@ impl<'a, C: Curve> Pieces<'a, C> {
 
     /// The range cut at the inflection 0 if it is inside.
     pub(super) fn cut_at_zero(curve: &'a C, (lo, hi): (f64, f64), left: Bend, right: Bend) -> Self {
-        let pieces = Self::starting(curve, lo).until(hi.min(0.0), left);
+        let pieces = Self::starting(curve, lo).until(lesser(hi, 0.0), left);
         pieces.until(hi, right)
     }
 
@@ -146,7 +197,8 @@ impl<'a, C: Curve> Pieces<'a, C> {
     /// A good `alpha`.
     ///
     /// One bend: the secant, for which the extreme deviations are at both ends and at one inner point (Chebyshev). Cut
-    /// ranges: for a cubic over `m +- r` the best slope is `h'(m) + 3/4 (secant - h'(m))`.
+    /// ranges: for a cubic over `m +- r` the best slope is `secant + (h'(m) - secant)/4`; `h'(m)` is limited to
+    /// `[0, 7/3] secant`, which suits a cube root (infinite slope) and a step (saturated `tanh`) too.
     fn chebyshev(&self) -> f64 {
         let (lo, hi) = (self.list[0].lo, self.end);
         let secant = (self.at_end.mid() - self.list[0].at_lo.mid()) / (hi - lo);
@@ -156,19 +208,20 @@ impl<'a, C: Curve> Pieces<'a, C> {
         } else if self.len == 1 {
             secant
         } else {
-            0.75 * secant + 0.25 * middle()
+            let ratio = middle() / secant;
+            let limited = if ratio < 7.0 / 3.0 { if ratio > 0.0 { ratio } else { 0.0 } } else { 7.0 / 3.0 };
+            secant * (0.75 + 0.25 * limited)
         };
         if alpha.is_finite() { alpha } else { 0.0 }
     }
 
     /// The form of `h(x)`; `x` takes values of the range only, where `h` is defined.
     ///
-    /// Falls back to centre and radius of the range of `h` if that error is no larger. As `rad h(X) >= |alpha| rad X` for
-    /// a secant slope, that is tried only if the linear error is as large.
+    /// Falls back to centre and radius of the range of `h` if that error is no larger; tried only if the linear error
+    /// exceeds half the difference of the values at both ends, as the radius is at least that.
     pub(super) fn apply<const N: usize>(&self, x: &Affine<N>, fit: Fit) -> Affine<N> {
         let alpha = self.chebyshev();
         let linear = x.scale_add(alpha, self.deviation(alpha));
-        let radius = 0.5 * (self.end - self.list[0].lo);
         if fit == Fit::Positive && !linear.range().certainly_positive() {
             let flat = self.deviation(0.0);
             if flat.certainly_positive() {
@@ -184,8 +237,8 @@ impl<'a, C: Curve> Pieces<'a, C> {
                 return narrower(x.scale_add(alpha, self.deviation(alpha)), Affine::constant(flat));
             }
         }
-        // Written so that a NaN chooses the comparison.
-        if linear.e < alpha.abs() * radius { linear } else { narrower(linear, Affine::constant(self.deviation(0.0))) }
+        let rise = 0.5 * (self.at_end.mid() - self.list[0].at_lo.mid()).abs();
+        if linear.e < rise { linear } else { narrower(linear, Affine::constant(self.deviation(0.0))) }
     }
 }
 

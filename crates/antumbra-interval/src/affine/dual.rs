@@ -22,7 +22,19 @@ impl<const N: usize> Dual<N> {
         Self { value: Affine::constant(k), derivative: Affine::ZERO }
     }
 
-    /// The same, multiplied by the exact number `k`.
+    /// `f + k` for a number of `k`.
+    #[must_use]
+    pub fn add_interval(self, k: Interval) -> Self {
+        Self { value: self.value.add_interval(k), derivative: self.derivative }
+    }
+
+    /// `f k` for a number of `k`.
+    #[must_use]
+    pub fn mul_interval(self, k: Interval) -> Self {
+        Self { value: self.value.mul_interval(k), derivative: self.derivative.mul_interval(k) }
+    }
+
+    /// `f k` for the exact number `k`.
     #[must_use]
     pub fn mul_f64(self, k: f64) -> Self {
         Self { value: self.value.mul_f64(k), derivative: self.derivative.mul_f64(k) }

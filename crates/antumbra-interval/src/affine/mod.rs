@@ -58,8 +58,13 @@ impl<const N: usize> Affine<N> {
 
     /// The form if `size`, which bounds `|c|, |a_i|, e` and all that led to them, is below `2^1000`; else unknown.
     #[inline(always)]
-    const fn sealed(c: f64, a: [f64; N], e: f64, size: f64) -> Self {
-        if size < LARGE { Self { c, a, e } } else { Self::UNKNOWN }
+    fn sealed(c: f64, a: [f64; N], e: f64, size: f64) -> Self {
+        if size < LARGE {
+            Self { c, a, e }
+        } else {
+            overflow();
+            Self::UNKNOWN
+        }
     }
 
     /// `c + sum a_i s_i +- e`. [`Affine::UNKNOWN`] if a number is NaN or too large, or `e < 0`.
@@ -165,13 +170,29 @@ impl<const N: usize> From<Interval> for Affine<N> {
 /// `(m, r)` with `|x - m| <= r` for every `x` in `k`: infinite or NaN `r` if `k` is unbounded or empty, `r = 0` if `k` is
 /// one number that halves exactly.
 ///
-/// `r` is the larger of two rounded differences, next float up; a difference rounds to 0 only if it is 0.
+/// `r = d + fl(2u d)`, `d` the larger of two rounded differences: a normal `d` is off by at most `u d`, and `2u d` is at
+/// least its last place, so `r` is at least the next float; a subnormal `d` is exact. NaN and infinity stay.
 #[inline(always)]
 fn centre_radius(k: Interval) -> (f64, f64) {
     let (lo, hi) = (k.lo(), k.hi());
     let m = 0.5 * lo + 0.5 * hi;
-    let (below, above) = (m - lo, hi - m);
-    let r = if below > above { below } else { above };
-    // NaN and infinity stay: NaN.next_up() is NaN.
-    (m, if r == 0.0 { 0.0 } else { r.next_up() })
+    // [-inf, hi]: NaN, inf; [lo, inf]: inf, NaN. A NaN first argument is dropped, m is infinite anyway.
+    let d = greater(m - lo, hi - m);
+    (m, d + d * f64::EPSILON)
+}
+
+/// Marks the branch of [`Affine::sealed`] that is hardly ever taken, else it becomes `N + 2` selections.
+#[cold]
+const fn overflow() {}
+
+/// The larger one of two numbers that are not NaN; else `y`.
+#[inline(always)]
+fn greater(x: f64, y: f64) -> f64 {
+    if x > y { x } else { y }
+}
+
+/// The smaller one of two numbers that are not NaN; else `y`.
+#[inline(always)]
+fn lesser(x: f64, y: f64) -> f64 {
+    if x < y { x } else { y }
 }

@@ -3,7 +3,7 @@
 use super::{
     Affine,
     curve::{Bend, Curve, Fit, Formula, Pieces, finite_range},
-    point,
+    greater, point,
     point::{around, bounds, exact, non_negative, recip_non_negative},
 };
 use crate::Interval;
@@ -65,7 +65,7 @@ fn signed(x: f64, hi: f64) -> f64 {
 
 /// Root of the enclosure of a non-negative number.
 fn root(y: Interval) -> Interval {
-    bounds(point::sqrt(y.lo().max(0.0)).lo(), point::sqrt(y.hi()).hi())
+    bounds(point::sqrt(greater(y.lo(), 0.0)).lo(), point::sqrt(y.hi()).hi())
 }
 
 /// `x^n` for `x > 0`, and for `x <= 0` if `n > 0`.

@@ -1,6 +1,7 @@
 //! Enclosures of elementary functions at one number.
 //!
 //! `core-math` rounds correctly, so the true value lies between the floats on both sides of the returned one.
+use super::greater;
 use crate::Interval;
 
 /// The numbers from the float below `y` to the float above. Everything if `y` is NaN.
@@ -22,13 +23,13 @@ pub(super) fn exact(x: f64) -> Interval {
 
 /// Non-negative part of an enclosure of a non-negative number.
 pub(super) fn non_negative(y: Interval) -> Interval {
-    bounds(y.lo().max(0.0), y.hi())
+    bounds(greater(y.lo(), 0.0), y.hi())
 }
 
 /// `1 / y` for a non-negative number in `y`, `[.., inf)` where it may be 0.
 pub(super) fn recip_non_negative(y: Interval) -> Interval {
     // One rounding each, then one step outward.
-    let (lo, hi) = ((1.0 / y.hi()).next_down().max(0.0), (1.0 / y.lo().max(0.0)).next_up());
+    let (lo, hi) = (greater((1.0 / y.hi()).next_down(), 0.0), (1.0 / greater(y.lo(), 0.0)).next_up());
     bounds(lo, hi)
 }
 

@@ -27,6 +27,12 @@ macro_rules! apex {
             /// `x * self`.
             #[must_use]
             fn scale(self, x: Affine<N>) -> Affine<N>;
+            /// `self + k`.
+            #[must_use]
+            fn add_interval(self, k: Interval) -> Self;
+            /// `self * k`.
+            #[must_use]
+            fn mul_interval(self, k: Interval) -> Self;
             /// `self^n`.
             #[must_use]
             fn powi(self, n: i32) -> Self;
@@ -53,6 +59,8 @@ macro_rules! apex {
             fn range(self) -> Interval { self }
             fn shift(self, x: Affine<N>) -> Affine<N> { x.add_interval(self) }
             fn scale(self, x: Affine<N>) -> Affine<N> { x.mul_interval(self) }
+            fn add_interval(self, k: Interval) -> Self { self + k }
+            fn mul_interval(self, k: Interval) -> Self { self * k }
             fn powi(self, n: i32) -> Self { Interval::powi(self, n) }
             fn pow(self, y: Self) -> Self { Interval::pow(self, y) }
             fn atan2(self, x: Self) -> Self { Interval::atan2(self, x) }
@@ -65,6 +73,8 @@ macro_rules! apex {
             fn range(self) -> Interval { Affine::range(&self) }
             fn shift(self, x: Affine<N>) -> Affine<N> { x + self }
             fn scale(self, x: Affine<N>) -> Affine<N> { x * self }
+            fn add_interval(self, k: Interval) -> Self { Affine::add_interval(self, k) }
+            fn mul_interval(self, k: Interval) -> Self { Affine::mul_interval(self, k) }
             fn powi(self, n: i32) -> Self { Affine::powi(self, n) }
             fn pow(self, y: Self) -> Self { Affine::pow(self, y) }
             fn atan2(self, x: Self) -> Self { Affine::atan2(self, x) }
@@ -106,10 +116,22 @@ impl<P: Apex<N>, const N: usize> Slope<P, N> {
         Self { apex, value: apex.shift(t * d), slope: d }
     }
 
-    /// The same, multiplied by the exact number `k`.
+    /// `f + k` for a number of `k`, the same at the apex and elsewhere.
+    #[must_use]
+    pub fn add_interval(self, k: Interval) -> Self {
+        Self { apex: self.apex.add_interval(k), value: self.value.add_interval(k), slope: self.slope }
+    }
+
+    /// `f k` for a number of `k`, the same at the apex and elsewhere.
+    #[must_use]
+    pub fn mul_interval(self, k: Interval) -> Self {
+        Self { apex: self.apex.mul_interval(k), value: self.value.mul_interval(k), slope: self.slope.mul_interval(k) }
+    }
+
+    /// `f k` for the exact number `k`.
     #[must_use]
     pub fn mul_f64(self, k: f64) -> Self {
-        Self { apex: self.apex * P::constant(exact(k)), value: self.value.mul_f64(k), slope: self.slope.mul_f64(k) }
+        Self { apex: self.apex.mul_interval(exact(k)), value: self.value.mul_f64(k), slope: self.slope.mul_f64(k) }
     }
 
     /// `f^2`: `v^2 - p^2 = (v - p)(v + p)`.
@@ -149,9 +171,8 @@ impl<P: Apex<N>, const N: usize> Slope<P, N> {
     #[must_use]
     pub fn cbrt(self) -> Self {
         let (apex, value) = (self.apex.cbrt(), self.value.cbrt());
-        let half = P::constant(exact(0.5));
-        let square = (apex * half).shift(value).sqr();
-        let rest = (apex.sqr() * P::constant(exact(0.75))).shift(square);
+        let square = apex.mul_interval(exact(0.5)).shift(value).sqr();
+        let rest = apex.sqr().mul_interval(exact(0.75)).shift(square);
         Self { apex, value, slope: self.slope / rest }
     }
 
@@ -220,7 +241,8 @@ impl<P: Apex<N>, const N: usize> Slope<P, N> {
         let both = self.apex.range().hull(self.value.range());
         let middle = self.apex.shift(self.value).mul_f64(0.5);
         let d = exact((-self.apex).shift(self.value).range().magnitude());
-        let remainder = h.third_range(both) * (d.sqr() / exact(24.0));
+        // (v - p)^2 is anything from 0 to d^2.
+        let remainder = h.third_range(both) * (d.sqr() / exact(24.0)).hull(Interval::ZERO);
         let curved = h.first(middle).add_interval(remainder);
         Self { apex, value, slope: self.slope * narrower(curved, Affine::constant(h.first_range(both))) }
     }

@@ -2,6 +2,7 @@
 use super::{
     Affine,
     curve::{Bend, Curve, Fit, Formula, Pieces, finite_range},
+    lesser,
     nonlinear::HALF_PI,
     point,
     point::exact,
@@ -47,14 +48,14 @@ impl Wave {
         // Invariant: the inflection j is certainly at or before the end of the pieces.
         while pieces.has_room() {
             let next = quarter(j + 2);
-            pieces = pieces.until(next.lo().min(hi), self.bend_after(j));
+            pieces = pieces.until(lesser(next.lo(), hi), self.bend_after(j));
             if pieces.end() >= hi {
                 return Some(pieces);
             }
             if !pieces.has_room() {
                 return None;
             }
-            pieces = pieces.until(next.hi().min(hi), Bend::Gap);
+            pieces = pieces.until(lesser(next.hi(), hi), Bend::Gap);
             if pieces.end() >= hi {
                 return Some(pieces);
             }
@@ -115,8 +116,8 @@ impl<const N: usize> Affine<N> {
         }
         let zero = quarter(k);
         // Beside the inflection, over a gap of a few ulps (1e-6 at most at FARTHEST), 1 <= h' = 1 + tan^2 <= 2.
-        let pieces = Pieces::starting(&TAN, lo).until(hi.min(zero.lo()), Bend::Concave);
-        let pieces = pieces.until(hi.min(zero.hi()), Bend::Gap).until(hi, Bend::Convex);
+        let pieces = Pieces::starting(&TAN, lo).until(lesser(hi, zero.lo()), Bend::Concave);
+        let pieces = pieces.until(lesser(hi, zero.hi()), Bend::Gap).until(hi, Bend::Convex);
         pieces.apply(&self, Fit::Chebyshev)
     }
 
