@@ -24,9 +24,7 @@ pub(crate) fn unary(op: Unary, a: &BigRational) -> Option<BigRational> {
         Unary::Sqrt => root(a, 2),
         Unary::Cbrt => root(a, 3),
         Unary::Exp | Unary::Cos | Unary::Cosh => zero.then(BigRational::one),
-        Unary::Sin | Unary::Tan | Unary::Asin | Unary::Atan | Unary::Sinh | Unary::Tanh => {
-            zero.then(BigRational::zero)
-        }
+        Unary::Sin | Unary::Tan | Unary::Asin | Unary::Atan | Unary::Sinh | Unary::Tanh => zero.then(BigRational::zero),
         Unary::Ln | Unary::Acos => a.is_one().then(BigRational::zero),
     }
 }

@@ -1,9 +1,9 @@
 //! The formula as a value: a graph and its root.
+use super::{Axis, Derivative};
 use super::{
     Error, ErrorKind, Graph, MAX_SOURCE, NodeId, Surface, derivative::derivative, lower::lower, print, statement,
     surface::zero_set,
 };
-use super::{Axis, Derivative};
 use std::fmt;
 
 /// The real function that a formula denotes, exactly.
@@ -94,6 +94,7 @@ impl Formula {
     }
 
     /// Proved to be defined and continuous at every point of space; `false` means "not proved".
+    /// A tape, which encloses the constants, may prove it where their form alone does not.
     #[must_use]
     pub fn is_continuous_everywhere(&self) -> bool {
         self.graph.facts(self.root).continuous

@@ -97,10 +97,11 @@ pub(crate) fn number(source: &str, span: Range<usize>) -> Result<BigRational, Er
     if whole.len() + fraction.len() > MAX_DIGITS {
         return Err(Error::new(source, ErrorKind::Number, span, format!("a number of more than {MAX_DIGITS} digits")));
     }
-    let exponent = exponent.parse::<i32>().ok().filter(|e| e.unsigned_abs() <= MAX_EXPONENT as u32).ok_or_else(|| {
-        Error::new(source, ErrorKind::Number, span, "the exponent of this number is too large")
-            .with_help(format!("powers of ten go from 1e-{MAX_EXPONENT} to 1e{MAX_EXPONENT}"))
-    })?;
+    let exponent =
+        exponent.parse::<i32>().ok().filter(|e| e.unsigned_abs() <= MAX_EXPONENT as u32).ok_or_else(|| {
+            Error::new(source, ErrorKind::Number, span, "the exponent of this number is too large")
+                .with_help(format!("powers of ten go from 1e-{MAX_EXPONENT} to 1e{MAX_EXPONENT}"))
+        })?;
     let digits = format!("{whole}{fraction}").parse::<BigInt>().unwrap_or_else(|_| BigInt::zero());
     // value = digits * 10^(exponent - digits after the point)
     let scale = exponent - fraction.len() as i32;

@@ -257,8 +257,7 @@ impl Lowering<'_> {
                 let uniform = f == Builtin::Scale && a.len() == 2;
                 Ok(if uniform { self.graph.binary(super::Binary::Mul, a[1], shape) } else { shape })
             }
-            _ => meaning::call(&mut self.graph, f, a)
-                .map_err(|meaning::ZeroDivisor| self.zero_divisor(span)),
+            _ => meaning::call(&mut self.graph, f, a).map_err(|meaning::ZeroDivisor| self.zero_divisor(span)),
         }
     }
 }

@@ -49,6 +49,7 @@ mod syntax;
 
 pub use derivative::Derivative;
 pub use error::{Error, ErrorKind};
+pub(crate) use facts::{Facts, given as facts_given};
 pub use formula::Formula;
 pub use graph::{Graph, Node, NodeId};
 pub use op::{Axis, Binary, Unary};

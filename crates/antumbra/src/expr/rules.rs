@@ -60,14 +60,7 @@ pub(crate) fn unary(g: &mut Graph, op: Unary, a: NodeId) -> Option<NodeId> {
         (Unary::Ln, Node::Unary(Unary::Exp, b)) => b,
         (Unary::Cos | Unary::Cosh, Node::Unary(Unary::Neg, b)) => g.unary(op, b),
         (
-            Unary::Sin
-            | Unary::Tan
-            | Unary::Asin
-            | Unary::Atan
-            | Unary::Sinh
-            | Unary::Tanh
-            | Unary::Cbrt
-            | Unary::Sign,
+            Unary::Sin | Unary::Tan | Unary::Asin | Unary::Atan | Unary::Sinh | Unary::Tanh | Unary::Cbrt | Unary::Sign,
             Node::Unary(Unary::Neg, b),
         ) => {
             let b = g.unary(op, b);
