@@ -136,6 +136,7 @@ fn constants() {
         ("x/0", DivisionByZero, "0", 1, 3, "exactly 0"),
         ("x/(0.1 + 0.2 - 0.3)", DivisionByZero, "0.1 + 0.2 - 0.3", 1, 4, "exactly 0"),
         ("x + 0^-1", DivisionByZero, "-1", 1, 7, "exactly 0"),
+        ("a = 1; y/(z - z)", DivisionByZero, "y/(z - z)", 1, 8, "0 everywhere"),
         ("mod(x, 0)", DivisionByZero, "mod(x, 0)", 1, 1, "exactly 0"),
         ("scale(x, 0)", DivisionByZero, "scale(x, 0)", 1, 1, "exactly 0"),
         ("smooth_union(x, y, 0)", DivisionByZero, "smooth_union(x, y, 0)", 1, 1, "exactly 0"),

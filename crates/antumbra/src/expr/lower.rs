@@ -46,10 +46,10 @@ struct Lowering<'a> {
 }
 
 /// The graph of a program and its root.
-pub(crate) fn lower(source: &str, program: &Program, simplifying: bool) -> Result<(Graph, NodeId), Error> {
+pub(crate) fn lower(source: &str, program: &Program) -> Result<(Graph, NodeId), Error> {
     check_calls(source, program)?;
     let constants = vec![None; program.definitions.len()];
-    let mut lowering = Lowering { source, program, graph: Graph::new(simplifying), steps: 0, constants };
+    let mut lowering = Lowering { source, program, graph: Graph::new(false), steps: 0, constants };
     for (i, definition) in program.definitions.iter().enumerate() {
         if !definition.function {
             let value = lowering.run(&definition.body)?;

@@ -46,6 +46,8 @@ mod rules;
 mod statement;
 mod surface;
 mod syntax;
+#[cfg(test)]
+mod tests;
 
 pub use derivative::Derivative;
 pub use error::{Error, ErrorKind};

@@ -82,7 +82,7 @@ impl Surface {
 
 pub(crate) fn zero_set(formula: &Formula) -> Surface {
     let simple = formula.simplify();
-    let mut graph = simple.graph().clone();
+    let mut graph = simple.graph().clone().into_simplifying();
     let mut root = simple.root();
     let mut steps = vec![];
     // Each step but the last two makes the part of the graph below the root smaller; those two remove a root.
