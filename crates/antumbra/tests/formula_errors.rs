@@ -176,6 +176,10 @@ fn huge_inputs_are_errors_or_work() {
     let large = "x+".repeat(5 * MAX_SOURCE);
     assert_eq!(error(&large).kind(), ErrorKind::TooLarge);
 
+    // The largest text: half a million operations.
+    let sum = "x+".repeat(MAX_SOURCE / 2 - 1) + "y";
+    assert_eq!(Formula::parse(&sum).unwrap().graph().nodes().len(), MAX_SOURCE / 2 + 2);
+
     // f_k doubles: 2^60 operations.
     let mut text = "f0(t) = sin(t) + cos(t)\n".to_owned();
     for k in 1..60 {

@@ -9,7 +9,7 @@ use std::{fmt, ops::Range};
 /// The real function that a formula denotes, exactly.
 ///
 /// Equality is structural: the same operations on the same constants in the same order.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Formula {
     graph: Graph,
     root: NodeId,
@@ -145,9 +145,15 @@ impl PartialEq for Formula {
     }
 }
 
-/// Text that [`Formula::parse_as_written`] reads as the same formula. Large shared parts are written once, as definitions.
+/// Text that [`Formula::parse_as_written`] reads as the same formula, unless it divides by the constant 0. Large shared parts are written once, as definitions.
 impl fmt::Display for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         print::print(&self.graph, self.root, f)
+    }
+}
+
+impl fmt::Debug for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Formula({self})")
     }
 }

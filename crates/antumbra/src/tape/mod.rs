@@ -2,6 +2,8 @@
 mod build;
 mod compile;
 mod constant;
+#[cfg(test)]
+mod tests;
 
 pub use build::TapeError;
 

@@ -1,4 +1,4 @@
 //! Properties of random formulas, checked at points where as much as possible is exact.
-mod point;
+pub(crate) mod point;
 mod properties;
-mod random;
+pub(crate) mod random;

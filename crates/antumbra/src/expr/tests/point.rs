@@ -5,7 +5,7 @@ use num_rational::BigRational;
 use num_traits::{Signed, ToPrimitive, Zero};
 
 #[derive(Clone, Debug, PartialEq)]
-pub(super) enum Value {
+pub(crate) enum Value {
     Exact(BigRational),
     Float(f64),
     Undefined,
@@ -17,7 +17,7 @@ pub(super) enum Value {
 const NEAR: f64 = 1e-6;
 
 impl Value {
-    pub(super) fn float(&self) -> Option<f64> {
+    pub(crate) fn float(&self) -> Option<f64> {
         match self {
             Self::Exact(q) => q.to_f64(),
             Self::Float(v) => Some(*v),
@@ -32,7 +32,7 @@ impl Value {
 }
 
 /// The values of all nodes.
-pub(super) fn values(graph: &Graph, root: NodeId, point: &[BigRational; 3]) -> Vec<Value> {
+pub(crate) fn values(graph: &Graph, root: NodeId, point: &[BigRational; 3]) -> Vec<Value> {
     let mut out: Vec<Value> = vec![];
     for node in &graph.nodes()[..=root.index()] {
         let at = |id: NodeId| out[id.index()].clone();
@@ -52,7 +52,7 @@ pub(super) fn values(graph: &Graph, root: NodeId, point: &[BigRational; 3]) -> V
     out
 }
 
-pub(super) fn value(formula: &Formula, point: &[BigRational; 3]) -> Value {
+pub(crate) fn value(formula: &Formula, point: &[BigRational; 3]) -> Value {
     values(formula.graph(), formula.root(), point).pop().unwrap()
 }
 

@@ -11,7 +11,7 @@ const CONSTANTS: &[&str] = &["0", "1", "2", "0.5", "(-1)", "(1/3)", "0.1", "pi",
 const EXPONENTS: &[&str] = &["0", "1", "2", "3", "4", "(-1)", "(-2)", "(-3)", "0.5", "1.5", "(1/3)", "(-0.5)"];
 
 /// A formula text of about that many operations. Parts are used again often, so that rules on equal operands are met.
-pub(super) fn text(random: &mut Rng, size: usize) -> String {
+pub(crate) fn text(random: &mut Rng, size: usize) -> String {
     let mut parts: Vec<String> = ["x", "y", "z"].map(String::from).to_vec();
     for _ in 0..size {
         let pick = |random: &mut Rng| {
@@ -37,6 +37,6 @@ pub(super) fn text(random: &mut Rng, size: usize) -> String {
 }
 
 /// A point of small rationals, so that zeros, poles and borders of domains are met exactly.
-pub(super) fn point(random: &mut Rng) -> [BigRational; 3] {
+pub(crate) fn point(random: &mut Rng) -> [BigRational; 3] {
     [(); 3].map(|()| BigRational::new(random.i32(-6..=6).into(), [1, 1, 2, 3][random.usize(..4)].into()))
 }
