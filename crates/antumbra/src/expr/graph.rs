@@ -220,6 +220,11 @@ impl Graph {
 
     /// Copies a node of another graph, whose children are here as `place` says.
     pub(crate) fn copy(&mut self, from: &Self, id: NodeId, place: impl Fn(NodeId) -> NodeId) -> NodeId {
+        if self.simplifying
+            && let Some(q) = from.exact(id)
+        {
+            return self.rational(q.clone());
+        }
         match from.node(id) {
             Node::Rational(i) => self.rational(from.rational_at(i).clone()),
             Node::Pi => self.pi(),

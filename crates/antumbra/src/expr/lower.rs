@@ -139,6 +139,9 @@ impl Lowering<'_> {
                 continue;
             }
             let value = self.value(frame, id, ast)?;
+            if matches!(ast, Ast::Binary(..) | Ast::Call { .. }) {
+                self.steps += self.graph.exact(value).map_or(0, exact::cost);
+            }
             frame.values.push(value);
         }
     }

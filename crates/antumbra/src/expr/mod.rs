@@ -8,7 +8,7 @@
 //! |---|---|---|
 //! | operators | `+ - * / ^ **`, also `· × ÷ − √ ² ³` | `^` is right associative and tighter than a sign: `-x^2` is `-(x^2)`; `2^-3` |
 //! | products | `2xy`, `2 x`, `x(y+1)`, `3sin(x)` | same precedence as `*`: `1/2x` is `(1/2)*x`. Not before a number: `x*2` |
-//! | numbers | `1`, `.5`, `1.5e-3` | at most 2000 digits, exponents to 1000 |
+//! | numbers | `1`, `.5`, `1.5e-3` | at most 2000 digits, exponents to 400 |
 //! | constants | `pi π`, `e`, `phi φ`, `tau τ` | |
 //! | functions | `sin cos tan sec csc cot asin acos atan` (`arcsin` ...) `atan2(y, x) sinh cosh tanh exp ln log` (natural) `log10 log2 sqrt cbrt abs sign floor ceil mod pow min max` | radians |
 //! | powers | `a^n`, n an integer constant | defined for negative bases too |
