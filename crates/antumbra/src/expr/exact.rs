@@ -82,7 +82,8 @@ pub(crate) fn powi(a: &BigRational, n: i32) -> Option<BigRational> {
 
 /// `op(a, b)` if it is rational.
 pub(crate) fn binary(op: Binary, a: &BigRational, b: &BigRational) -> Option<BigRational> {
-    if !matches!(op, Binary::Min | Binary::Max) && !(is_small(a) && is_small(b)) {
+    let comparison = matches!(op, Binary::Min | Binary::Max);
+    if !comparison && (!is_small(a) || !is_small(b)) {
         return None;
     }
     match op {
