@@ -33,7 +33,7 @@ impl Derivative {
 
 pub(crate) fn derivative(formula: &Formula, axis: Axis) -> Derivative {
     let simple = formula.simplify();
-    let mut g = simple.graph().clone();
+    let mut g = simple.graph().clone().into_simplifying();
     let count = simple.root().index() + 1;
     let zero = g.integer(0);
     let mut slopes = vec![zero; count];

@@ -5,11 +5,28 @@ use num_bigint::{BigInt, Sign};
 use num_rational::BigRational;
 use num_traits::{One, Pow, Signed, ToPrimitive, Zero};
 
-/// Most bits of a numerator or denominator.
-const MAX_BITS: u64 = 4096;
+/// Most bits of a numerator or denominator, of operands and results: reducing a fraction takes time quadratic in its bits, and a
+/// text of the largest size has 10^5 constants. Operations that need no reduction are free of it.
+const MAX_BITS: u64 = 512;
+
+/// How much dearer an operation with that exact result is than one of the graph's other steps: about one step's time for every
+/// 160 products of bits, as measured.
+pub(crate) fn cost(q: &BigRational) -> usize {
+    let bits = q.numer().bits().max(q.denom().bits()) as usize;
+    bits * bits / 160
+}
+
+/// Whether both parts have at most 64 bits: cheap to compute with, however often.
+pub(crate) fn is_short(q: &BigRational) -> bool {
+    q.numer().bits() <= 64 && q.denom().bits() <= 64
+}
+
+fn is_small(q: &BigRational) -> bool {
+    q.numer().bits() <= MAX_BITS && q.denom().bits() <= MAX_BITS
+}
 
 fn capped(q: BigRational) -> Option<BigRational> {
-    (q.numer().bits() <= MAX_BITS && q.denom().bits() <= MAX_BITS).then_some(q)
+    is_small(&q).then_some(q)
 }
 
 /// `op(a)` if it is rational by one of the identities below.
@@ -20,13 +37,12 @@ pub(crate) fn unary(op: Unary, a: &BigRational) -> Option<BigRational> {
         Unary::Abs => Some(a.abs()),
         Unary::Sign => Some(a.signum()),
         Unary::Floor => Some(a.floor()),
-        Unary::Sqr => capped(a * a),
+        Unary::Sqr if is_small(a) => capped(a * a),
+        Unary::Sqr => None,
         Unary::Sqrt => root(a, 2),
         Unary::Cbrt => root(a, 3),
         Unary::Exp | Unary::Cos | Unary::Cosh => zero.then(BigRational::one),
-        Unary::Sin | Unary::Tan | Unary::Asin | Unary::Atan | Unary::Sinh | Unary::Tanh => {
-            zero.then(BigRational::zero)
-        }
+        Unary::Sin | Unary::Tan | Unary::Asin | Unary::Atan | Unary::Sinh | Unary::Tanh => zero.then(BigRational::zero),
         Unary::Ln | Unary::Acos => a.is_one().then(BigRational::zero),
     }
 }
@@ -34,7 +50,7 @@ pub(crate) fn unary(op: Unary, a: &BigRational) -> Option<BigRational> {
 /// The square or cube root of a lowest-terms fraction is rational only if both parts are perfect powers; `None` otherwise, and
 /// for the square root of a negative number.
 fn root(a: &BigRational, n: u32) -> Option<BigRational> {
-    if n == 2 && a.is_negative() {
+    if (n == 2 && a.is_negative()) || !is_small(a) {
         return None;
     }
     let exact = |v: &BigInt| {
@@ -66,6 +82,10 @@ pub(crate) fn powi(a: &BigRational, n: i32) -> Option<BigRational> {
 
 /// `op(a, b)` if it is rational.
 pub(crate) fn binary(op: Binary, a: &BigRational, b: &BigRational) -> Option<BigRational> {
+    let comparison = matches!(op, Binary::Min | Binary::Max);
+    if !comparison && (!is_small(a) || !is_small(b)) {
+        return None;
+    }
     match op {
         Binary::Add => capped(a + b),
         Binary::Sub => capped(a - b),

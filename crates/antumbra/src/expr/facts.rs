@@ -26,15 +26,34 @@ impl Facts {
     }
 }
 
+/// The facts about every used node of a graph, where more is `known` about some than their form tells. Nodes that are not used
+/// get meaningless facts.
+pub(crate) fn given(graph: &Graph, used: &[bool], known: impl Fn(NodeId) -> Option<Facts>) -> Vec<Facts> {
+    let mut facts: Vec<Facts> = Vec::with_capacity(used.len());
+    for (i, used) in used.iter().enumerate() {
+        let id = graph.id(i);
+        let own = graph.facts(id);
+        facts.push(if !used {
+            own
+        } else {
+            known(id).unwrap_or_else(|| from_children(graph, graph.node(id), own.exact, |id| facts[id.index()]))
+        });
+    }
+    facts
+}
+
 /// The facts about a node that is about to be stored; its children are.
 pub(crate) fn of(graph: &Graph, node: Node, exact: Option<u32>) -> Facts {
+    from_children(graph, node, exact, |id| graph.facts(id))
+}
+
+fn from_children(graph: &Graph, node: Node, exact: Option<u32>, at: impl Fn(NodeId) -> Facts) -> Facts {
     if let Some(i) = exact {
         // A node with an exact value is defined: folding gives no value otherwise.
         let q = graph.rational_at(i);
         let (nonnegative, nonzero) = (!q.is_negative(), !q.is_zero());
         return Facts { exact, total: true, continuous: true, nonnegative, nonzero, constant: true };
     }
-    let at = |id: NodeId| graph.facts(id);
     match node {
         // A rational node always comes with its value, above.
         Node::Rational(_) | Node::Pi | Node::E => {

@@ -1,15 +1,15 @@
 //! The formula as a value: a graph and its root.
 use super::{
-    Error, ErrorKind, Graph, MAX_SOURCE, NodeId, Surface, derivative::derivative, lower::lower, print, statement,
-    surface::zero_set,
+    Axis, Binary, Derivative, Error, ErrorKind, Graph, MAX_SOURCE, Node, NodeId, Surface, derivative::derivative,
+    lower::lower, print, statement, surface::zero_set,
 };
-use super::{Axis, Derivative};
-use std::fmt;
+use num_traits::Zero;
+use std::{fmt, ops::Range};
 
 /// The real function that a formula denotes, exactly.
 ///
 /// Equality is structural: the same operations on the same constants in the same order.
-#[derive(Clone, Debug)]
+#[derive(Clone)]
 pub struct Formula {
     graph: Graph,
     root: NodeId,
@@ -23,7 +23,15 @@ impl Formula {
     ///
     /// Cost: linear in the length of the text, apart from the expansion of functions and transforms, which is capped.
     pub fn parse(source: &str) -> Result<Self, Error> {
-        Self::read(source, true)
+        // Simplified afterwards, not on the way: what `a^b` means depends on whether b is an integer constant *as written*.
+        let (written, equation) = Self::read(source)?;
+        let simple = written.simplify();
+        if simple.divides_by_zero() {
+            let message = "a divisor is 0 everywhere";
+            return Err(Error::new(source, ErrorKind::DivisionByZero, equation, message)
+                .with_help("the formula would be defined nowhere"));
+        }
+        Ok(simple)
     }
 
     /// As [`parse`](Self::parse), without the simplification: the operations as they were written.
@@ -31,17 +39,29 @@ impl Formula {
     /// # Errors
     /// As `parse`.
     pub fn parse_as_written(source: &str) -> Result<Self, Error> {
-        Self::read(source, false)
+        Ok(Self::read(source)?.0)
     }
 
-    fn read(source: &str, simplifying: bool) -> Result<Self, Error> {
+    /// The formula as written, and the place of its equation.
+    fn read(source: &str) -> Result<(Self, Range<usize>), Error> {
         if source.len() > MAX_SOURCE {
             let message = format!("the formula has {} bytes; the most is {MAX_SOURCE}", source.len());
             return Err(Error::new(source, ErrorKind::TooLarge, 0..0, message));
         }
         let program = statement::read(source)?;
-        let (graph, root) = lower(source, &program, simplifying)?;
-        Ok(Self { graph, root }.compacted())
+        let (graph, root) = lower(source, &program)?;
+        Ok((Self { graph, root }.compacted(), program.tree.span(program.equation.root)))
+    }
+
+    /// A quotient by the exact constant 0: every operator is undefined where an operand is, so the whole formula is nowhere
+    /// defined.
+    fn divides_by_zero(&self) -> bool {
+        let zero = |id: NodeId| self.graph.exact(id).is_some_and(Zero::is_zero);
+        self.graph.nodes().iter().any(|node| match *node {
+            Node::Binary(Binary::Div, _, b) => zero(b),
+            Node::Powi(a, n) => n < 0 && zero(a),
+            _ => false,
+        })
     }
 
     pub(crate) fn new(graph: Graph, root: NodeId) -> Self {
@@ -67,8 +87,9 @@ impl Formula {
     }
 
     /// Without operations that the root does not use.
-    pub(crate) fn compacted(&self) -> Self {
-        self.rebuilt(false)
+    pub(crate) fn compacted(self) -> Self {
+        let all = self.root.index() + 1 == self.graph.nodes().len();
+        if all && self.graph.reachable(self.root).iter().all(|&used| used) { self } else { self.rebuilt(false) }
     }
 
     fn rebuilt(&self, simplifying: bool) -> Self {
@@ -94,6 +115,7 @@ impl Formula {
     }
 
     /// Proved to be defined and continuous at every point of space; `false` means "not proved".
+    /// A tape, which encloses the constants, may prove it where their form alone does not.
     #[must_use]
     pub fn is_continuous_everywhere(&self) -> bool {
         self.graph.facts(self.root).continuous
@@ -123,9 +145,15 @@ impl PartialEq for Formula {
     }
 }
 
-/// Text that [`Formula::parse_as_written`] reads as the same formula. Large shared parts are written once, as definitions.
+/// Text that [`Formula::parse_as_written`] reads as the same formula, unless it divides by the constant 0. Large shared parts are written once, as definitions.
 impl fmt::Display for Formula {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         print::print(&self.graph, self.root, f)
+    }
+}
+
+impl fmt::Debug for Formula {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "Formula({self})")
     }
 }

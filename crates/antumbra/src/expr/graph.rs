@@ -5,7 +5,7 @@ use super::{
     rules,
 };
 use num_rational::BigRational;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// Place of a node in its [`Graph`]; smaller than the places of all nodes that use it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
@@ -58,8 +58,8 @@ pub struct Graph {
     nodes: Vec<Node>,
     facts: Vec<Facts>,
     rationals: Vec<BigRational>,
-    place: HashMap<Node, NodeId>,
-    place_of_rational: HashMap<BigRational, u32>,
+    place: FxHashMap<Node, NodeId>,
+    place_of_rational: FxHashMap<BigRational, u32>,
     simplifying: bool,
 }
 
@@ -68,6 +68,11 @@ impl Graph {
     /// keeps each as it is.
     pub(crate) fn new(simplifying: bool) -> Self {
         Self { simplifying, ..Self::default() }
+    }
+
+    /// The same graph, which applies the rules to each operation that is added from now on.
+    pub(crate) fn into_simplifying(self) -> Self {
+        Self { simplifying: true, ..self }
     }
 
     /// Every node; children stand before parents.
@@ -215,6 +220,11 @@ impl Graph {
 
     /// Copies a node of another graph, whose children are here as `place` says.
     pub(crate) fn copy(&mut self, from: &Self, id: NodeId, place: impl Fn(NodeId) -> NodeId) -> NodeId {
+        if self.simplifying
+            && let Some(q) = from.exact(id)
+        {
+            return self.rational(q.clone());
+        }
         match from.node(id) {
             Node::Rational(i) => self.rational(from.rational_at(i).clone()),
             Node::Pi => self.pi(),

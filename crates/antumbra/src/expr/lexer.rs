@@ -2,6 +2,7 @@
 use super::{Error, ErrorKind};
 use logos::Logos;
 use num_bigint::BigInt;
+use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::{Pow, Zero};
 use std::ops::Range;
@@ -86,8 +87,8 @@ fn stray(source: &str, at: usize) -> Error {
 
 /// Most digits that a number may have.
 const MAX_DIGITS: usize = 2000;
-/// Largest absolute value of its exponent of ten. Beyond 1e400 nothing can be told from overflow anyway.
-const MAX_EXPONENT: i32 = 1000;
+/// Largest absolute value of its exponent of ten. The largest `f64` is below 1e309.
+const MAX_EXPONENT: i32 = 400;
 
 /// The exact value of a decimal literal.
 pub(crate) fn number(source: &str, span: Range<usize>) -> Result<BigRational, Error> {
@@ -97,15 +98,24 @@ pub(crate) fn number(source: &str, span: Range<usize>) -> Result<BigRational, Er
     if whole.len() + fraction.len() > MAX_DIGITS {
         return Err(Error::new(source, ErrorKind::Number, span, format!("a number of more than {MAX_DIGITS} digits")));
     }
-    let exponent = exponent.parse::<i32>().ok().filter(|e| e.unsigned_abs() <= MAX_EXPONENT as u32).ok_or_else(|| {
-        Error::new(source, ErrorKind::Number, span, "the exponent of this number is too large")
-            .with_help(format!("powers of ten go from 1e-{MAX_EXPONENT} to 1e{MAX_EXPONENT}"))
-    })?;
+    let exponent =
+        exponent.parse::<i32>().ok().filter(|e| e.unsigned_abs() <= MAX_EXPONENT as u32).ok_or_else(|| {
+            Error::new(source, ErrorKind::Number, span, "the exponent of this number is too large")
+                .with_help(format!("powers of ten go from 1e-{MAX_EXPONENT} to 1e{MAX_EXPONENT}"))
+        })?;
     let digits = format!("{whole}{fraction}").parse::<BigInt>().unwrap_or_else(|_| BigInt::zero());
     // value = digits * 10^(exponent - digits after the point)
     let scale = exponent - fraction.len() as i32;
     let power = Pow::pow(BigInt::from(10), scale.unsigned_abs());
-    Ok(if scale >= 0 { BigRational::from_integer(digits * power) } else { BigRational::new(digits, power) })
+    Ok(if scale >= 0 {
+        BigRational::from_integer(digits * power)
+    } else if digits.is_zero() {
+        BigRational::zero()
+    } else {
+        // The first step of Euclid's algorithm by hand: it makes the cost of the rest that of the digits, not of the power.
+        let common = digits.gcd(&(&power % &digits));
+        BigRational::new_raw(digits / &common, power / common)
+    })
 }
 
 /// The value of a superscript such as `⁻²`.

@@ -46,10 +46,10 @@ struct Lowering<'a> {
 }
 
 /// The graph of a program and its root.
-pub(crate) fn lower(source: &str, program: &Program, simplifying: bool) -> Result<(Graph, NodeId), Error> {
+pub(crate) fn lower(source: &str, program: &Program) -> Result<(Graph, NodeId), Error> {
     check_calls(source, program)?;
     let constants = vec![None; program.definitions.len()];
-    let mut lowering = Lowering { source, program, graph: Graph::new(simplifying), steps: 0, constants };
+    let mut lowering = Lowering { source, program, graph: Graph::new(false), steps: 0, constants };
     for (i, definition) in program.definitions.iter().enumerate() {
         if !definition.function {
             let value = lowering.run(&definition.body)?;
@@ -139,6 +139,9 @@ impl Lowering<'_> {
                 continue;
             }
             let value = self.value(frame, id, ast)?;
+            if matches!(ast, Ast::Binary(..) | Ast::Call { .. }) {
+                self.steps += self.graph.exact(value).map_or(0, exact::cost);
+            }
             frame.values.push(value);
         }
     }
@@ -257,8 +260,7 @@ impl Lowering<'_> {
                 let uniform = f == Builtin::Scale && a.len() == 2;
                 Ok(if uniform { self.graph.binary(super::Binary::Mul, a[1], shape) } else { shape })
             }
-            _ => meaning::call(&mut self.graph, f, a)
-                .map_err(|meaning::ZeroDivisor| self.zero_divisor(span)),
+            _ => meaning::call(&mut self.graph, f, a).map_err(|meaning::ZeroDivisor| self.zero_divisor(span)),
         }
     }
 }

@@ -25,7 +25,7 @@ use super::{Axis, Binary, Graph, NodeId, Unary, function::Builtin};
 use num_integer::Integer;
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap;
 
 /// The divisor of a division by the constant 0.
 pub(crate) struct ZeroDivisor;
@@ -245,7 +245,7 @@ pub(crate) fn substitute<E>(
     by: [NodeId; 3],
     mut spend: impl FnMut(&Graph) -> Result<(), E>,
 ) -> Result<NodeId, E> {
-    let mut place: HashMap<NodeId, NodeId> = HashMap::new();
+    let mut place: FxHashMap<NodeId, NodeId> = FxHashMap::default();
     let from = [Axis::X, Axis::Y, Axis::Z].map(|axis| g.axis(axis));
     place.extend(from.into_iter().zip(by));
     let mut stack = vec![root];

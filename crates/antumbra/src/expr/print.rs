@@ -48,12 +48,7 @@ pub(crate) fn print(graph: &Graph, root: NodeId, f: &mut fmt::Formatter<'_>) -> 
     write_tree(graph, root, &names, f)
 }
 
-fn write_tree(
-    graph: &Graph,
-    root: NodeId,
-    names: &HashMap<NodeId, usize>,
-    f: &mut fmt::Formatter<'_>,
-) -> fmt::Result {
+fn write_tree(graph: &Graph, root: NodeId, names: &HashMap<NodeId, usize>, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     let mut stack = vec![Piece::Node(root, Tightness::Sum)];
     while let Some(piece) = stack.pop() {
         let (id, least) = match piece {

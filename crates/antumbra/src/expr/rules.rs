@@ -14,7 +14,7 @@
 //! | `g + c`, `g - c` with `c < 0` | `g - (-c)`, `g + (-c)` | |
 //! | `g + g` | `2*g` | |
 //! | `(-g)*(-h)`; `(-g)*h`, `g*(-h)` | `g*h`; `-(g*h)` | |
-//! | `c*(d*g)`; `c*(-g)`; `g*c` | `(c d)*g`; `(-c)*g`; `c*g` | |
+//! | `c*(d*g)`; `c*(-g)`; `g*c` | `(c d)*g`; `(-c)*g`; `c*g` | c, d of at most 64 bits; ; |
 //! | `g^m * g^n`, `g*g` | `g^(m+n)` | m, n >= 1 |
 //! | `g/c` | `(1/c)*g` | 1/c = p/2^k with p below 2^53: nothing is rounded away |
 //! | `(-g)/h`, `g/(-h)` | `-(g/h)` | |
@@ -60,14 +60,7 @@ pub(crate) fn unary(g: &mut Graph, op: Unary, a: NodeId) -> Option<NodeId> {
         (Unary::Ln, Node::Unary(Unary::Exp, b)) => b,
         (Unary::Cos | Unary::Cosh, Node::Unary(Unary::Neg, b)) => g.unary(op, b),
         (
-            Unary::Sin
-            | Unary::Tan
-            | Unary::Asin
-            | Unary::Atan
-            | Unary::Sinh
-            | Unary::Tanh
-            | Unary::Cbrt
-            | Unary::Sign,
+            Unary::Sin | Unary::Tan | Unary::Asin | Unary::Atan | Unary::Sinh | Unary::Tanh | Unary::Cbrt | Unary::Sign,
             Node::Unary(Unary::Neg, b),
         ) => {
             let b = g.unary(op, b);
@@ -225,7 +218,8 @@ fn scale(g: &mut Graph, c: &BigRational, b: NodeId) -> Option<NodeId> {
             Some(g.binary(Binary::Mul, c, b))
         }
         Node::Binary(Binary::Mul, d, b) => {
-            let product = exact::binary(Binary::Mul, c, g.exact(d)?)?;
+            let d = g.exact(d).filter(|d| exact::is_short(d) && exact::is_short(c))?;
+            let product = exact::binary(Binary::Mul, c, d)?;
             let c = g.rational(product);
             Some(g.binary(Binary::Mul, c, b))
         }

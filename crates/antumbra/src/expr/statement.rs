@@ -48,8 +48,13 @@ fn match_parentheses(source: &str, words: &[Placed]) -> Result<(), Error> {
         match word {
             Word::Open => open.push(span.clone()),
             Word::Close if open.pop().is_none() => {
-                return Err(Error::new(source, ErrorKind::Parenthesis, span.clone(), "this parenthesis closes nothing")
-                    .with_help("remove it or add a `(` before it"));
+                return Err(Error::new(
+                    source,
+                    ErrorKind::Parenthesis,
+                    span.clone(),
+                    "this parenthesis closes nothing",
+                )
+                .with_help("remove it or add a `(` before it"));
             }
             Word::Semicolon => {
                 if let Some(span) = open.pop() {
@@ -162,8 +167,15 @@ impl Reader<'_> {
     fn definition(&mut self, statement: &[Placed]) -> Result<(), Error> {
         let place = statement[0].1.start..statement.last().map_or(0, |(_, s)| s.end);
         let Some(head) = head(statement) else {
-            return Err(Error::new(self.source, ErrorKind::Statement, place, "only the last statement can be an equation")
-                .with_help("those before it define: `a = 0.5` or `f(t) = t^2`; to continue a line, end it with an operator"));
+            return Err(Error::new(
+                self.source,
+                ErrorKind::Statement,
+                place,
+                "only the last statement can be an equation",
+            )
+            .with_help(
+                "those before it define: `a = 0.5` or `f(t) = t^2`; to continue a line, end it with an operator",
+            ));
         };
         one_equals(self.source, statement, 1)?;
         let name = self.text(&head.name).to_owned();
@@ -299,8 +311,9 @@ fn syntax_error(
             error("`=` inside parentheses".into()).with_help("an equation has one `=`, outside of all parentheses")
         }
         (None, _) => error(format!("the statement begins with {}", shown(token, definitions))).with_expected(expected),
-        (Some(last), _) => error(format!("{} after {}", shown(token, definitions), shown(last, definitions)))
-            .with_expected(expected),
+        (Some(last), _) => {
+            error(format!("{} after {}", shown(token, definitions), shown(last, definitions))).with_expected(expected)
+        }
     }
 }
 

@@ -14,6 +14,8 @@
 //! | `g*g*h` -> `g*h` (factors) | same domain; both are 0 iff g or h is |
 //! | `sqrt(g) - c`, `c - sqrt(g)` -> `g - c^2`, c >= 0 (root) | sqrt(g) = c iff g = c^2, since then g >= 0 |
 //!
+//! The *sign* of the formula is not kept: `-g` becomes `g`, so inside and outside may change places.
+//!
 //! A square root inside a product stays: `sqrt(g)*h` is undefined for g < 0, where `g*h` may vanish with h.
 use super::{Binary, Formula, Graph, Node, NodeId, Unary};
 use num_traits::Signed;
@@ -82,7 +84,7 @@ impl Surface {
 
 pub(crate) fn zero_set(formula: &Formula) -> Surface {
     let simple = formula.simplify();
-    let mut graph = simple.graph().clone();
+    let mut graph = simple.graph().clone().into_simplifying();
     let mut root = simple.root();
     let mut steps = vec![];
     // Each step but the last two makes the part of the graph below the root smaller; those two remove a root.
@@ -109,7 +111,7 @@ fn root_step(g: &mut Graph, root: NodeId) -> Option<(NodeId, Vec<ZeroStep>)> {
                 (_, Node::Unary(Unary::Sqrt, inside)) => (inside, a),
                 _ => return None,
             };
-            if !g.exact(c).is_some_and(|c| !c.is_negative()) {
+            if g.exact(c).is_none_or(Signed::is_negative) {
                 return None;
             }
             let square = g.unary(Unary::Sqr, c);

@@ -95,11 +95,7 @@ impl Tape {
         Self::checked(clauses, constants, continuous)
     }
 
-    pub(super) fn checked(
-        clauses: Vec<Clause>,
-        constants: Vec<Interval>,
-        continuous: bool,
-    ) -> Result<Self, TapeError> {
+    pub(super) fn checked(clauses: Vec<Clause>, constants: Vec<Interval>, continuous: bool) -> Result<Self, TapeError> {
         if clauses.is_empty() {
             return Err(TapeError::Empty);
         }

@@ -1,6 +1,6 @@
 //! Formula -> tape: order of operations, constants, slots.
 use super::{Clause, MAX_CLAUSES, Op, Tape, TapeError, constant};
-use crate::expr::{Formula, Graph, Node, NodeId};
+use crate::expr::{Facts, Formula, Graph, Node, NodeId, facts_given};
 use antumbra_interval::Interval;
 use std::collections::HashMap;
 
@@ -15,7 +15,20 @@ impl Tape {
     /// [`TapeError::TooLong`].
     pub fn compile(formula: &Formula) -> Result<Self, TapeError> {
         let (graph, root) = (formula.graph(), formula.root());
-        let folded = constant::fold(graph, &graph.reachable(root));
+        let used = graph.reachable(root);
+        let folded = constant::fold(graph, &used);
+        // A folded constant is proved to be defined, and its enclosure tells its sign.
+        let known = |id: NodeId| {
+            folded[id.index()].map(|value| Facts {
+                exact: None,
+                total: true,
+                continuous: true,
+                nonnegative: value.lo() >= 0.0,
+                nonzero: !value.possibly_zero(),
+                constant: true,
+            })
+        };
+        let continuous = facts_given(graph, &used, known)[root.index()].continuous;
         let order = order(graph, root, &folded)?;
 
         let mut last_use = vec![0_usize; root.index() + 1];
@@ -63,12 +76,16 @@ impl Tape {
             slot_of[id.index()] = out;
             clauses.push(Clause { op, out, a, b });
         }
-        Self::checked(clauses, constants, formula.is_continuous_everywhere())
+        Self::checked(clauses, constants, continuous)
     }
 }
 
 /// What the tape's clause for a node reads: nothing, if the node is folded.
-fn operands<'a>(graph: &'a Graph, id: NodeId, folded: &[Option<Interval>]) -> impl DoubleEndedIterator<Item = NodeId> + 'a {
+fn operands<'a>(
+    graph: &'a Graph,
+    id: NodeId,
+    folded: &[Option<Interval>],
+) -> impl DoubleEndedIterator<Item = NodeId> + 'a {
     let folded = folded[id.index()].is_some();
     graph.node(id).children().filter(move |_| !folded)
 }

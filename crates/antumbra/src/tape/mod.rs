@@ -2,6 +2,8 @@
 mod build;
 mod compile;
 mod constant;
+#[cfg(test)]
+mod tests;
 
 pub use build::TapeError;
 
@@ -67,7 +69,7 @@ impl Tape {
         self.slots
     }
 
-    /// Proved, from the formula alone: defined and continuous at every point of space. `false` means "not proved".
+    /// Proved, before any evaluation: defined and continuous at every point of space. `false` means "not proved".
     ///
     /// It is a statement about the real function; an evaluator that carries decorations may skip them where it holds.
     #[must_use]
