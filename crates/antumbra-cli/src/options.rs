@@ -19,7 +19,7 @@ use crate::{
     values,
 };
 
-/// Bytes of formula read from standard input; the heart has its own, smaller limit and says so.
+/// Bytes of formula read from standard input. The heart has its own, smaller limit; this one bounds the memory.
 const MAX_FORMULA: u64 = 64 << 20;
 
 /// A scene and what it is called.
@@ -165,9 +165,12 @@ fn find_scene(text: &str) -> Result<NamedScene> {
     if text == "-" {
         let mut formula = String::new();
         std::io::stdin()
-            .take(MAX_FORMULA)
+            .take(MAX_FORMULA + 1)
             .read_to_string(&mut formula)
             .map_err(|e| anyhow!("cannot read a formula from standard input: {e}"))?;
+        if formula.len() as u64 > MAX_FORMULA {
+            return Err(Usage(format!("the formula on standard input is longer than {MAX_FORMULA} bytes")).into());
+        }
         return from_formula(formula.trim_end());
     }
     if let Some(scene) = scene::preset(text) {
