@@ -35,9 +35,9 @@ Examples:
   antumbra render mcmullen --planes planes --json - --quiet | jq .hits
   antumbra render - < formula.txt
 
-Planes, all with row 0 at the top: verdict, t_lo, t_hi, visible_lo, visible_hi, facing, cost have the shape
-(height, width); normal and rgb (linear light) have (height, width, 3). t_lo and t_hi are NaN only where the pixel
-is empty.";
+Planes have row 0 at the top. The shape of verdict, t_lo, t_hi, visible_lo, visible_hi, facing and cost is \
+(height, width), that of normal and rgb (linear light) is (height, width, 3). t_lo and t_hi are NaN only where the \
+pixel is empty.";
 
 /// Render a scene or a formula to a picture.
 ///

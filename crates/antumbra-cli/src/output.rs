@@ -160,19 +160,21 @@ fn write_whole(out: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
 
 /// The message for a path that cannot be written: what, why, and what to do.
 fn cannot_write(path: &Path, error: &io::Error) -> anyhow::Error {
-    let parent = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new(".")).display();
-    let advice = match error.kind() {
-        ErrorKind::NotFound => format!("the folder `{parent}` does not exist; make it first"),
+    let folder = path.parent().filter(|p| !p.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    let parent = folder.display();
+    let reason = match error.kind() {
+        ErrorKind::NotFound if !folder.exists() => format!("the folder `{parent}` does not exist; make it first"),
+        ErrorKind::NotFound => format!("`{parent}` takes no new files; choose another place"),
         ErrorKind::NotADirectory => format!("`{parent}` is not a folder"),
         ErrorKind::PermissionDenied => format!("you may not write in `{parent}`; choose another place"),
         ErrorKind::ReadOnlyFilesystem => format!("`{parent}` is on a read-only disk; choose another place"),
         ErrorKind::StorageFull | ErrorKind::QuotaExceeded | ErrorKind::FileTooLarge => {
-            "no space left for it; free some or choose another place".to_owned()
+            format!("no space left for it; free some or choose another place ({error})")
         }
         ErrorKind::InvalidFilename => "the name is too long or has characters that the disk refuses".to_owned(),
-        _ => return anyhow!("cannot write `{}`: {error}", path.display()),
+        _ => error.to_string(),
     };
-    anyhow!("cannot write `{}`: {advice} ({error})", path.display())
+    anyhow!("cannot write `{}`: {reason}", path.display())
 }
 
 /// Prints a result on standard output. A reader that has gone away (`| head`) is not an error.
@@ -233,7 +235,7 @@ mod tests {
     #[test]
     fn every_kind_of_refusal_says_what_to_do() {
         for (kind, words) in [
-            (ErrorKind::NotFound, "the folder `a` does not exist"),
+            (ErrorKind::NotFound, "the folder `a` does not exist; make it first"),
             (ErrorKind::NotADirectory, "`a` is not a folder"),
             (ErrorKind::PermissionDenied, "you may not write in `a`"),
             (ErrorKind::ReadOnlyFilesystem, "read-only disk"),

@@ -1,7 +1,7 @@
 //! `antumbra compare`: several methods on one scene, in one process.
 
 use anyhow::Result;
-use comfy_table::{CellAlignment, Table, presets::UTF8_HORIZONTAL_ONLY};
+use comfy_table::{CellAlignment, Table, presets::ASCII_MARKDOWN};
 use serde::Serialize;
 
 use super::{complete, json_sink, json_text, print_json};
@@ -78,7 +78,7 @@ pub(super) fn run(options: &CompareOptions) -> Result<()> {
 /// One line a method; the ratios say how many times cheaper than the first method it is.
 fn table(rows: &[Row]) -> Table {
     let mut table = Table::new();
-    table.load_style(UTF8_HORIZONTAL_ONLY).set_header([
+    table.load_style(ASCII_MARKDOWN).set_header([
         "method",
         "hits",
         "beams",
@@ -86,9 +86,9 @@ fn table(rows: &[Row]) -> Table {
         "primary s",
         "shadow s",
         "total s",
-        "evaluations",
-        "shadow",
-        "total",
+        "fewer evaluations",
+        "faster shadow",
+        "faster total",
     ]);
     for row in rows {
         let first = &rows[0];

@@ -2,6 +2,7 @@
 
 use antumbra::image::npy_bytes;
 use anyhow::Result;
+use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::{complete, json_sink, json_text, picture_bytes, print_json};
@@ -71,21 +72,22 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
 fn summary(options: &RenderOptions, stats: &Stats) -> String {
     let spec = &options.spec;
     let share = 100.0 * stats.hits as f64 / (spec.width * spec.height) as f64;
-    let classes: Vec<String> = stats.classes.iter().map(|(name, n)| format!("{n} {name}")).collect();
-    let classes = if classes.is_empty() { String::new() } else { format!(" ({})", classes.join(", ")) };
+    let classes: Vec<String> = stats.classes.iter().map(|(name, n)| format!(", {} {name}", HumanCount(*n))).collect();
     let planes = options.planes.as_deref().map(|p| format!(" and {}/*.npy", p.display())).unwrap_or_default();
     format!(
-        "{}x{} {}: {} hits ({share:.2} %){classes}, {} beams, {} evaluations, {:.2} s ({:.2} primary, {:.2} shadow)\n\
-         wrote {}{planes}",
-        spec.width,
-        spec.height,
-        spec.method.name(),
-        stats.hits,
-        stats.beams,
-        stats.evaluations,
+        "{} hits ({share:.2} %){}; {} beams, {} evaluations; {:.2} s ({:.2} primary, {:.2} shadow)\n\
+         wrote {}{planes}: {}x{}, {}, threads: {}",
+        HumanCount(stats.hits),
+        classes.concat(),
+        HumanCount(stats.beams),
+        HumanCount(stats.evaluations),
         stats.seconds,
         stats.primary_seconds,
         stats.shadow_seconds,
         options.picture.display(),
+        spec.width,
+        spec.height,
+        spec.method.name(),
+        thread_count(&options.run),
     )
 }
