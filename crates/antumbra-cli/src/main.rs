@@ -1,2 +1,29 @@
-//! Command line of Antumbra.
-fn main() {}
+//! `antumbra`: formula in, picture out.
+//!
+//! The program is thin: arguments ([`args`]) become validated options ([`options`]), a command ([`commands`]) hands
+//! them to the heart and its results to files ([`output`]). Exit codes: [`failure`].
+
+mod args;
+mod commands;
+mod engine;
+mod failure;
+mod interrupt;
+mod options;
+mod output;
+mod progress;
+mod values;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+fn main() -> ExitCode {
+    let args = args::Args::parse();
+    match interrupt::install().and_then(|()| commands::run(args)) {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(error) => {
+            output::remark(&format!("error: {error:#}"));
+            failure::code(&error)
+        }
+    }
+}

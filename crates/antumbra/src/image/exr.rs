@@ -24,8 +24,7 @@ pub fn exr_bytes(planes: &Planes) -> Result<Vec<u8>, Error> {
         return Err(Error::NotColor(COLOR_PLANE.to_owned()));
     }
     let channels: SmallVec<[AnyChannel<FlatSamples>; 4]> = planes.iter().flat_map(channels).collect();
-    let mut attributes = LayerAttributes::default();
-    attributes.software_name = Text::new_or_none(SOFTWARE);
+    let attributes = LayerAttributes { software_name: Text::new_or_none(SOFTWARE), ..LayerAttributes::default() };
     let size = (picture.columns(), picture.rows());
     let layer = Layer::new(size, attributes, Encoding::SMALL_LOSSLESS, AnyChannels::sort(channels));
     let image = Image::new(ImageAttributes::with_size(size), layer);

@@ -1,0 +1,201 @@
+//! The command line as clap reads it. Nothing happens here.
+
+use std::path::PathBuf;
+
+use clap::{Parser, Subcommand, ValueEnum};
+
+use crate::{
+    engine::render::Method,
+    failure::EXIT_CODES,
+    values::{self, Size},
+};
+
+/// Pictures of implicit surfaces f(x, y, z) = 0 with soft shadows from area lights.
+#[derive(Debug, Parser)]
+#[command(name = "antumbra", version, after_help = EXIT_CODES, arg_required_else_help = true)]
+pub(crate) struct Args {
+    #[command(subcommand)]
+    pub(crate) command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+pub(crate) enum Command {
+    Render(RenderArgs),
+    Compare(CompareArgs),
+    Paper(PaperArgs),
+    Info,
+}
+
+const RENDER_EXAMPLES: &str = "\
+Examples:
+  antumbra render orthocircle
+  antumbra render chubs -o chubs.exr --size 1024 --light-scale 4 --floor
+  antumbra render 'x^4 + y^4 + z^4 - (x^2 + y^2 + z^2) + 0.5 = 0' -o mine.png
+  antumbra render -o sphere.png -- '-x^2 - y^2 - z^2 + 1'
+  antumbra render mcmullen --planes planes --json - --quiet | jq .hits
+  antumbra render - < formula.txt
+
+Planes have row 0 at the top. The shape of verdict, t_lo, t_hi, visible_lo, visible_hi, facing and cost is \
+(height, width), that of normal and rgb (linear light) is (height, width, 3). t_lo and t_hi are NaN only where the \
+pixel is empty.";
+
+/// Render a scene or a formula to a picture.
+///
+/// A picture appears under its name only when it is complete; until then it is a hidden file beside it. Messages go
+/// to standard error, so that standard output holds only what `--json -` asks for.
+#[derive(Debug, clap::Args)]
+#[command(after_help = format!("{RENDER_EXAMPLES}\n\n{EXIT_CODES}"))]
+pub(crate) struct RenderArgs {
+    /// A preset (`antumbra info` lists them), a formula in x, y, z, or `-` for a formula on standard input
+    #[arg(value_name = "SCENE-OR-FORMULA")]
+    pub(crate) scene: String,
+
+    /// Picture to write: .png for looking, .exr for all planes in linear light [default: SCENE.png]
+    #[arg(short, long, value_name = "FILE")]
+    pub(crate) output: Option<PathBuf>,
+
+    /// Bits per channel of a PNG: 8 (dithered) or 16
+    #[arg(long, value_name = "BITS", default_value = "8", value_parser = ["8", "16"])]
+    pub(crate) bits: String,
+
+    /// How light and surface are found (`antumbra info` lists the methods)
+    #[arg(long, value_name = "METHOD", default_value = Method::DEFAULT.name(), value_parser = values::method)]
+    pub(crate) method: Method,
+
+    #[command(flatten)]
+    pub(crate) spec: SpecArgs,
+
+    /// Write every plane as DIR/NAME.npy
+    #[arg(long, value_name = "DIR")]
+    pub(crate) planes: Option<PathBuf>,
+
+    /// Write counters and times as JSON; `-` is standard output
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+
+    /// No progress bar and no summary
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// What every command that renders understands.
+#[derive(Debug, clap::Args)]
+pub(crate) struct SpecArgs {
+    /// Size in pixels, N for a square or WxH
+    #[arg(long, value_name = "N|WxH", default_value = "512", value_parser = values::size, allow_negative_numbers = true)]
+    pub(crate) size: Size,
+
+    /// Make the light K times as wide
+    #[arg(
+        long,
+        value_name = "K",
+        default_value = "1",
+        value_parser = values::light_scale,
+        allow_negative_numbers = true
+    )]
+    pub(crate) light_scale: f64,
+
+    /// Put the scene's floor under the surface
+    #[arg(long)]
+    pub(crate) floor: bool,
+
+    /// Threads to use; the picture does not depend on it [default: every processor]
+    #[arg(long, value_name = "N", value_parser = values::threads, allow_negative_numbers = true)]
+    pub(crate) threads: Option<usize>,
+
+    /// Cells of the paper's grid along each axis
+    #[arg(long, value_name = "N", default_value = "32", value_parser = values::grid, allow_negative_numbers = true)]
+    pub(crate) grid: usize,
+
+    /// Sub-beams along each side of the light: N x N of them
+    #[arg(long, value_name = "N", default_value = "7", value_parser = values::sub_beams, allow_negative_numbers = true)]
+    pub(crate) sub_beams: usize,
+
+    /// Distance by which the paper's shadow beams start off the surface [default: chosen by the method]
+    #[arg(long, value_name = "E", value_parser = values::offset, allow_negative_numbers = true)]
+    pub(crate) offset: Option<f64>,
+
+    /// Seed of the random points of rays-mc
+    #[arg(long, value_name = "N", default_value = "1")]
+    pub(crate) seed: u64,
+}
+
+const COMPARE_EXAMPLES: &str = "\
+Examples:
+  antumbra compare orthocircle --methods fixed49,paper
+  antumbra compare mcmullen --methods fixed49,paper,paper-quadtree --threads 1 --json compare.json";
+
+/// Run several methods on one scene, in one process, and compare their cost.
+///
+/// The first method named is the one that the ratios refer to: 2.0x means half of its cost.
+#[derive(Debug, clap::Args)]
+#[command(after_help = format!("{COMPARE_EXAMPLES}\n\n{EXIT_CODES}"))]
+pub(crate) struct CompareArgs {
+    /// A preset, a formula in x, y, z, or `-` for a formula on standard input
+    #[arg(value_name = "SCENE-OR-FORMULA")]
+    pub(crate) scene: String,
+
+    /// Methods, separated by commas
+    #[arg(
+        long,
+        value_name = "A,B,C",
+        value_delimiter = ',',
+        default_value = "fixed49,paper",
+        value_parser = values::method
+    )]
+    pub(crate) methods: Vec<Method>,
+
+    #[command(flatten)]
+    pub(crate) spec: SpecArgs,
+
+    /// Write the comparison as JSON; `-` is standard output (the table then goes to standard error)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+
+    /// No progress bar
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+/// The tables and figures of the paper that can be reproduced.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(crate) enum Exhibit {
+    /// Beams and times of the four surfaces, our columns beside the paper's
+    Table1,
+    /// Rays miss what beams find
+    Fig1,
+    /// Rays against beams on a thin sheet
+    Fig5,
+    /// The four surfaces with their soft shadows
+    Fig6,
+    /// First beam occluded in blue, truly in shadow in red
+    Fig7,
+}
+
+const PAPER_EXAMPLES: &str = "\
+Examples:
+  antumbra paper table1
+  antumbra paper fig6 -o figures --size 256";
+
+/// Reproduce a table or a figure of the paper behind the method `paper`.
+///
+/// A table goes to standard output; pictures go to DIR (default: the current folder). With `-o` the text is also
+/// written there, as Markdown.
+#[derive(Debug, clap::Args)]
+#[command(after_help = format!("{PAPER_EXAMPLES}\n\n{EXIT_CODES}"))]
+pub(crate) struct PaperArgs {
+    /// What to reproduce
+    #[arg(value_enum)]
+    pub(crate) exhibit: Exhibit,
+
+    /// Folder for the files; made if its parent exists
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
+
+    #[command(flatten)]
+    pub(crate) spec: SpecArgs,
+
+    /// No progress bar
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}

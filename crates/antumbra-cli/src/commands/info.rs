@@ -1,0 +1,46 @@
+//! `antumbra info`: what this program and this machine offer.
+
+use anyhow::Result;
+
+use crate::{
+    engine::{
+        render::{Method, RunSpec},
+        scene,
+    },
+    options::thread_count,
+    output::print,
+};
+
+/// Prints version, processor, presets and methods.
+pub(super) fn run() -> Result<()> {
+    let methods: Vec<String> = Method::ALL.iter().map(|m| format!("  {:<15} {}", m.name(), m.summary())).collect();
+    print(&format!(
+        "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:   {}\nmethods (default: {}):\n{}\n",
+        env!("CARGO_PKG_VERSION"),
+        std::env::consts::ARCH,
+        processor_features(),
+        thread_count(&RunSpec::default()),
+        scene::preset_names().join(", "),
+        Method::DEFAULT.name(),
+        methods.join("\n"),
+    ))
+}
+
+/// The features that the arithmetic can use, each with yes or no.
+fn processor_features() -> String {
+    #[cfg(target_arch = "x86_64")]
+    {
+        let yes_no = |has: bool| if has { "yes" } else { "no" };
+        let avx512 = is_x86_feature_detected!("avx512f") && is_x86_feature_detected!("avx512dq");
+        format!(
+            ", AVX2: {}, FMA: {}, AVX-512 (embedded rounding): {}",
+            yes_no(is_x86_feature_detected!("avx2")),
+            yes_no(is_x86_feature_detected!("fma")),
+            yes_no(avx512)
+        )
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    {
+        ", portable arithmetic".to_owned()
+    }
+}

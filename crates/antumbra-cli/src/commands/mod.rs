@@ -1,0 +1,74 @@
+//! The commands: validated options in, files and text out.
+
+mod compare;
+mod info;
+mod paper;
+mod render;
+
+use std::time::Duration;
+
+use antumbra::image::{COLOR_PLANE, Planes, exr_bytes, png_bytes};
+use anyhow::Result;
+use serde::Serialize;
+
+use crate::{
+    args::{Args, Command},
+    engine::{
+        render::{RenderSpec, Renderer, RunSpec},
+        scene::Scene,
+    },
+    options::{CompareOptions, Format, JsonTarget, PaperOptions, RenderOptions},
+    output::{self, Sink},
+    progress::Progress,
+};
+
+/// Runs the command of a command line.
+///
+/// # Errors
+/// Whatever the command could not do, worded for the user.
+pub(crate) fn run(args: Args) -> Result<()> {
+    match args.command {
+        Command::Render(args) => render::run(&RenderOptions::new(args)?),
+        Command::Compare(args) => compare::run(&CompareOptions::new(args)?),
+        Command::Paper(args) => paper::run(&PaperOptions::new(args)),
+        Command::Info => info::run(),
+    }
+}
+
+/// Work between two looks at the progress bar.
+const SLICE: Duration = Duration::from_millis(100);
+
+/// Renders to the end under a progress bar.
+fn complete(scene: &Scene, spec: &RenderSpec, run: &RunSpec, progress: &Progress) -> Result<Renderer> {
+    let mut renderer = Renderer::new(scene.clone(), spec.clone(), run.clone())?;
+    while !renderer.refine(SLICE) {
+        progress.set(renderer.progress());
+    }
+    Ok(renderer)
+}
+
+/// The bytes of a picture file.
+fn picture_bytes(planes: &Planes, format: Format) -> Result<Vec<u8>> {
+    Ok(match format {
+        Format::Png(depth) => png_bytes(planes.require(COLOR_PLANE)?, depth)?,
+        Format::Exr => exr_bytes(planes)?,
+    })
+}
+
+/// The file for JSON, if it is to be one.
+fn json_sink(target: Option<&JsonTarget>) -> Result<Option<Sink>> {
+    match target {
+        Some(JsonTarget::File(path)) => Sink::open(path).map(Some),
+        Some(JsonTarget::Stdout) | None => Ok(None),
+    }
+}
+
+/// JSON for people and programs: indented, one final newline.
+fn json_text(value: &impl Serialize) -> Result<String> {
+    Ok(serde_json::to_string_pretty(value)? + "\n")
+}
+
+/// Prints JSON where it goes to standard output.
+fn print_json(target: Option<&JsonTarget>, text: &str) -> Result<()> {
+    if target == Some(&JsonTarget::Stdout) { output::print(text) } else { Ok(()) }
+}

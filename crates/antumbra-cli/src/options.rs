@@ -1,0 +1,225 @@
+//! Validated options: scenes found, formulas read, paths and formats understood.
+
+use std::{
+    io::Read,
+    path::{Path, PathBuf},
+    thread,
+};
+
+use antumbra::image::Depth;
+use anyhow::{Result, anyhow};
+
+use crate::{
+    args::{CompareArgs, Exhibit, PaperArgs, RenderArgs, SpecArgs},
+    engine::{
+        render::{Method, RenderSpec, RunSpec},
+        scene::{self, Scene},
+    },
+    failure::Usage,
+    values,
+};
+
+/// Bytes of formula read from standard input. The heart has its own, smaller limit; this one bounds the memory.
+const MAX_FORMULA: u64 = 64 << 20;
+
+/// A scene and what it is called.
+#[derive(Debug)]
+pub(crate) struct NamedScene {
+    /// The preset's name or the formula.
+    pub(crate) name: String,
+    /// A name that can be part of a file name.
+    pub(crate) stem: String,
+    pub(crate) scene: Scene,
+}
+
+/// Where JSON goes.
+#[derive(Debug, PartialEq, Eq)]
+pub(crate) enum JsonTarget {
+    Stdout,
+    File(PathBuf),
+}
+
+/// The kind of a picture file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Format {
+    Png(Depth),
+    Exr,
+}
+
+/// Options of `render`.
+#[derive(Debug)]
+pub(crate) struct RenderOptions {
+    pub(crate) scene: NamedScene,
+    pub(crate) spec: RenderSpec,
+    pub(crate) run: RunSpec,
+    pub(crate) picture: PathBuf,
+    pub(crate) format: Format,
+    pub(crate) planes: Option<PathBuf>,
+    pub(crate) json: Option<JsonTarget>,
+    pub(crate) quiet: bool,
+}
+
+/// Options of `compare`.
+#[derive(Debug)]
+pub(crate) struct CompareOptions {
+    pub(crate) scene: NamedScene,
+    /// One for each method, equal but for the method.
+    pub(crate) specs: Vec<RenderSpec>,
+    pub(crate) run: RunSpec,
+    pub(crate) json: Option<JsonTarget>,
+    pub(crate) quiet: bool,
+}
+
+/// Options of `paper`.
+#[derive(Debug)]
+pub(crate) struct PaperOptions {
+    pub(crate) exhibit: Exhibit,
+    pub(crate) spec: RenderSpec,
+    pub(crate) run: RunSpec,
+    pub(crate) folder: Option<PathBuf>,
+    pub(crate) quiet: bool,
+}
+
+impl RenderOptions {
+    /// # Errors
+    /// [`Usage`] where the scene, the formula or the extension of a file is not understood.
+    pub(crate) fn new(args: RenderArgs) -> Result<Self> {
+        let scene = find_scene(&args.scene)?;
+        let picture = args.output.unwrap_or_else(|| PathBuf::from(format!("{}.png", scene.stem)));
+        let depth = if args.bits == "16" { Depth::Sixteen } else { Depth::Eight };
+        let format = format_of(&picture, depth)?;
+        let json = args.json.map(json_target);
+        if json == Some(JsonTarget::File(picture.clone())) {
+            return Err(Usage(format!("`{}` cannot be both picture and JSON", picture.display())).into());
+        }
+        let (spec, run) = specs(args.spec, args.method);
+        Ok(Self { scene, spec, run, picture, format, planes: args.planes, json, quiet: args.quiet })
+    }
+}
+
+impl CompareOptions {
+    /// # Errors
+    /// [`Usage`] where the scene or the formula is not understood, or a method is named twice.
+    pub(crate) fn new(args: CompareArgs) -> Result<Self> {
+        for (i, method) in args.methods.iter().enumerate() {
+            if args.methods[..i].contains(method) {
+                return Err(Usage(format!("method `{}` is named twice", method.name())).into());
+            }
+        }
+        let (spec, run) = specs(args.spec, Method::DEFAULT);
+        let specs = args.methods.iter().map(|&method| RenderSpec { method, ..spec.clone() }).collect();
+        let scene = find_scene(&args.scene)?;
+        Ok(Self { scene, specs, run, json: args.json.map(json_target), quiet: args.quiet })
+    }
+}
+
+impl PaperOptions {
+    /// Pictures need a folder, the current one by default; a table needs none.
+    pub(crate) fn new(args: PaperArgs) -> Self {
+        let (spec, run) = specs(args.spec, Method::Paper);
+        let folder = args.output.or((args.exhibit != Exhibit::Table1).then(|| PathBuf::from(".")));
+        Self { exhibit: args.exhibit, spec, run, folder, quiet: args.quiet }
+    }
+}
+
+/// Threads that a run will use.
+pub(crate) fn thread_count(run: &RunSpec) -> usize {
+    run.threads.or_else(|| thread::available_parallelism().ok().map(Into::into)).unwrap_or(1)
+}
+
+fn specs(args: SpecArgs, method: Method) -> (RenderSpec, RunSpec) {
+    let spec = RenderSpec {
+        width: args.size.width,
+        height: args.size.height,
+        method,
+        light_scale: args.light_scale,
+        floor: args.floor,
+        grid: args.grid,
+        sub_beams: args.sub_beams,
+        offset: args.offset,
+        seed: args.seed,
+    };
+    (spec, RunSpec { threads: args.threads })
+}
+
+fn json_target(path: PathBuf) -> JsonTarget {
+    if path == Path::new("-") { JsonTarget::Stdout } else { JsonTarget::File(path) }
+}
+
+fn format_of(path: &Path, depth: Depth) -> Result<Format> {
+    // A folder has no format: opening it says so.
+    let extension = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("png") => Ok(Format::Png(depth)),
+        Some("exr") => Ok(Format::Exr),
+        _ if path.is_dir() => Ok(Format::Png(depth)),
+        _ => {
+            let message = format!("`{}` has no format that is known: end it in .png or .exr", path.display());
+            Err(Usage(message).into())
+        }
+    }
+}
+
+/// A preset if there is one of that name, else a formula; what is neither but looks like a name is a misspelt preset.
+fn find_scene(text: &str) -> Result<NamedScene> {
+    if text == "-" {
+        let mut formula = String::new();
+        std::io::stdin()
+            .take(MAX_FORMULA + 1)
+            .read_to_string(&mut formula)
+            .map_err(|e| anyhow!("cannot read a formula from standard input: {e}"))?;
+        if formula.len() as u64 > MAX_FORMULA {
+            return Err(Usage(format!("the formula on standard input is longer than {MAX_FORMULA} bytes")).into());
+        }
+        return from_formula(formula.trim_end());
+    }
+    if let Some(scene) = scene::preset(text) {
+        return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene });
+    }
+    from_formula(text).map_err(|error| if looks_like_a_name(text) { no_preset(text) } else { error })
+}
+
+fn from_formula(text: &str) -> Result<NamedScene> {
+    let scene = scene::from_formula(text).map_err(|e| Usage(e.render()))?;
+    Ok(NamedScene { name: text.to_owned(), stem: "antumbra".to_owned(), scene })
+}
+
+fn looks_like_a_name(text: &str) -> bool {
+    text.starts_with(|c: char| c.is_alphabetic())
+        && text.chars().all(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | ' '))
+}
+
+fn no_preset(text: &str) -> anyhow::Error {
+    let names = scene::preset_names();
+    let advice = match values::nearest(text, &names) {
+        Some(name) => format!("did you mean `{name}`?"),
+        None => format!("the presets are {}; a formula in x, y, z will do too", names.join(", ")),
+    };
+    Usage(format!("no preset named `{text}`; {advice}")).into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formats_by_extension() {
+        assert_eq!(format_of(Path::new("a.PNG"), Depth::Sixteen).unwrap(), Format::Png(Depth::Sixteen));
+        assert_eq!(format_of(Path::new("a.b/c.exr"), Depth::Eight).unwrap(), Format::Exr);
+        for bad in ["a", "a.jpg", ".png", "a.png.txt"] {
+            assert!(format_of(Path::new(bad), Depth::Eight).unwrap_err().is::<Usage>(), "{bad}");
+        }
+    }
+
+    #[test]
+    fn names_and_formulas() {
+        assert_eq!(find_scene("chubs").unwrap().stem, "chubs");
+        assert_eq!(find_scene("x^2 + y^2 + z^2 - 1").unwrap().stem, "antumbra");
+        // `xyz` looks like a name but is a product.
+        assert_eq!(find_scene("xyz").unwrap().name, "xyz");
+        let message = |text: &str| find_scene(text).unwrap_err().to_string();
+        assert_eq!(message("orthocirle"), "no preset named `orthocirle`; did you mean `orthocircle`?");
+        assert!(message("teapot").contains("the presets are"));
+        assert!(!message("x^2 + $").contains("no preset"));
+    }
+}

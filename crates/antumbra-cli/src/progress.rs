@@ -1,0 +1,36 @@
+//! The progress bar: on stderr, and only where a person is looking.
+
+use std::io::IsTerminal;
+
+use indicatif::{ProgressBar, ProgressDrawTarget, ProgressStyle};
+
+/// Steps of a full bar.
+const STEPS: u64 = 10_000;
+
+/// A progress bar, or nothing where stderr is not a terminal or the user wants quiet.
+pub(crate) struct Progress(ProgressBar);
+
+impl Progress {
+    /// A bar at 0 with a word before it.
+    pub(crate) fn new(quiet: bool, label: &str) -> Self {
+        let seen = !quiet && std::io::stderr().is_terminal();
+        let target = if seen { ProgressDrawTarget::stderr() } else { ProgressDrawTarget::hidden() };
+        let bar = ProgressBar::with_draw_target(Some(STEPS), target);
+        if let Ok(style) = ProgressStyle::with_template("{msg} {wide_bar} {percent:>3} %  {elapsed} (left: {eta})") {
+            bar.set_style(style);
+        }
+        bar.set_message(label.to_owned());
+        Self(bar)
+    }
+
+    /// Shows a fraction in [0, 1].
+    pub(crate) fn set(&self, fraction: f64) {
+        self.0.set_position((fraction.clamp(0.0, 1.0) * STEPS as f64) as u64);
+    }
+}
+
+impl Drop for Progress {
+    fn drop(&mut self) {
+        self.0.finish_and_clear();
+    }
+}

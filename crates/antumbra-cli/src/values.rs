@@ -1,0 +1,150 @@
+//! Values of options, from text. Each function says what it accepts when it refuses.
+
+use crate::engine::render::Method;
+
+/// Width and height in pixels.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) struct Size {
+    pub(crate) width: usize,
+    pub(crate) height: usize,
+}
+
+/// Pixels a side that PNG, EXR and the memory of a large machine can take.
+const MAX_SIDE: usize = 65_535;
+/// Pixels altogether: at about 100 bytes each for all planes this is 26 GB.
+const MAX_PIXELS: usize = 1 << 28;
+
+/// `512` (a square) or `800x600`.
+pub(crate) fn size(text: &str) -> Result<Size, String> {
+    const FORM: &str = "give a number of pixels such as 512, or WIDTHxHEIGHT such as 800x600";
+    let (width, height) = text.split_once(['x', 'X', '×']).unwrap_or((text, text));
+    let side = |word: &str| -> Result<usize, String> {
+        let word = word.trim();
+        if word.is_empty() || !word.bytes().all(|b| b.is_ascii_digit()) {
+            return Err(FORM.to_owned());
+        }
+        // Only digits: what does not parse is too long.
+        match word.parse::<usize>().unwrap_or(usize::MAX) {
+            0 => Err("a picture needs at least 1 pixel a side".to_owned()),
+            n if n > MAX_SIDE => Err(format!("too large: at most {MAX_SIDE} pixels a side")),
+            n => Ok(n),
+        }
+    };
+    let size = Size { width: side(width)?, height: side(height)? };
+    if size.width * size.height > MAX_PIXELS {
+        return Err(format!("too large: at most {MAX_PIXELS} pixels altogether (16384x16384)"));
+    }
+    Ok(size)
+}
+
+/// A whole number in `lo..=hi`.
+fn whole(text: &str, lo: usize, hi: usize) -> Result<usize, String> {
+    match text.parse::<usize>() {
+        Ok(n) if (lo..=hi).contains(&n) => Ok(n),
+        _ => Err(format!("give a whole number from {lo} to {hi}")),
+    }
+}
+
+/// Threads, 1 or more.
+pub(crate) fn threads(text: &str) -> Result<usize, String> {
+    whole(text, 1, 1024).map_err(|e| format!("{e}, or leave it out to use every processor"))
+}
+
+/// Cells of the grid along each axis.
+pub(crate) fn grid(text: &str) -> Result<usize, String> {
+    whole(text, 1, 512)
+}
+
+/// Sub-beams along each side of the light.
+pub(crate) fn sub_beams(text: &str) -> Result<usize, String> {
+    whole(text, 1, 64)
+}
+
+/// A finite number greater than 0.
+pub(crate) fn light_scale(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(k) if k.is_finite() && k > 0.0 => Ok(k),
+        _ => Err("give a finite number greater than 0, such as 4".to_owned()),
+    }
+}
+
+/// A finite distance, 0 or more.
+pub(crate) fn offset(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(e) if e.is_finite() && e >= 0.0 => Ok(e),
+        _ => Err("give a finite distance of 0 or more, such as 1e-4".to_owned()),
+    }
+}
+
+/// A method by its name.
+pub(crate) fn method(text: &str) -> Result<Method, String> {
+    if let Some(method) = Method::ALL.iter().find(|m| m.name() == text) {
+        return Ok(*method);
+    }
+    let names: Vec<&str> = Method::ALL.iter().map(|m| m.name()).collect();
+    let advice = nearest(text, &names).map(|name| format!("; did you mean `{name}`?")).unwrap_or_default();
+    Err(format!("the methods are {}{advice}", names.join(", ")))
+}
+
+/// The name that was probably meant, if one is near enough.
+pub(crate) fn nearest<'a>(text: &str, names: &[&'a str]) -> Option<&'a str> {
+    let text = text.to_lowercase();
+    let near = |name: &&'a str| strsim::jaro_winkler(&text, name);
+    names.iter().copied().max_by(|a, b| near(a).total_cmp(&near(b))).filter(|name| near(name) > 0.8)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes() {
+        assert_eq!(size("512"), Ok(Size { width: 512, height: 512 }));
+        assert_eq!(size("800x600"), Ok(Size { width: 800, height: 600 }));
+        assert_eq!(size("800 × 600"), Ok(Size { width: 800, height: 600 }));
+        assert_eq!(size("65535x4096"), Ok(Size { width: 65535, height: 4096 }));
+        for (bad, word) in [
+            ("0", "at least 1"),
+            ("512x0", "at least 1"),
+            ("1000000000", "at most 65535"),
+            ("99999999999999999999999", "at most 65535"),
+            ("65535x65535", "altogether"),
+            ("", "800x600"),
+            ("x", "800x600"),
+            ("512x", "800x600"),
+            ("-5", "800x600"),
+            ("+5", "800x600"),
+            ("5.5", "800x600"),
+            ("1x2x3", "800x600"),
+            ("big", "800x600"),
+        ] {
+            let message = size(bad).expect_err(bad);
+            assert!(message.contains(word), "{bad}: {message}");
+        }
+    }
+
+    #[test]
+    fn counts_and_distances() {
+        assert_eq!(threads("2"), Ok(2));
+        assert_eq!(grid("32"), Ok(32));
+        assert_eq!(sub_beams("7"), Ok(7));
+        assert_eq!(light_scale("4"), Ok(4.0));
+        assert_eq!(offset("0"), Ok(0.0));
+        for bad in ["-2", "0", "1.5", "", "two", "99999999999999999999"] {
+            assert!(threads(bad).is_err() && grid(bad).is_err() && sub_beams(bad).is_err(), "{bad}");
+        }
+        for bad in ["NaN", "inf", "-inf", "-1", "", "1e999", "four"] {
+            assert!(light_scale(bad).is_err() && offset(bad).is_err(), "{bad}");
+        }
+        assert!(light_scale("0").is_err());
+    }
+
+    #[test]
+    fn names_that_were_meant() {
+        assert_eq!(nearest("orthocirle", &["chubs", "orthocircle"]), Some("orthocircle"));
+        assert_eq!(nearest("Chubs", &["chubs", "orthocircle"]), Some("chubs"));
+        assert_eq!(nearest("teapot", &["chubs", "orthocircle"]), None);
+        assert_eq!(nearest("x", &[]), None);
+        assert!(method("papr").expect_err("no such method").contains("did you mean `paper`?"));
+    }
+}
