@@ -9,6 +9,7 @@ pub mod image;
 pub mod paper;
 pub mod render;
 pub mod scene;
+pub mod shadow;
 pub mod tape;
 pub mod trace;
 pub mod verdict;

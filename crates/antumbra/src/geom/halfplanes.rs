@@ -26,6 +26,8 @@ pub struct HalfPlane {
     pub b: f64,
     /// Bound of the error of the form, at least 0, perhaps infinite.
     pub e: f64,
+    /// Whether a negative form hides: if not, the plane only says where the square is lit.
+    pub hides: bool,
 }
 
 /// Shares of the square, in `[0, 1]`.
@@ -66,7 +68,7 @@ pub fn shares(planes: &[HalfPlane], scratch: &mut Scratch) -> Shares {
     let turned = |p: &HalfPlane| if across >= along { (p.a, p.b) } else { (p.b, p.a) };
     let mut area = |inner: bool| {
         scratch.bounds.clear();
-        scratch.bounds.extend(planes.iter().map(|p| {
+        scratch.bounds.extend(planes.iter().filter(|p| inner || p.hides).map(|p| {
             let (a, b) = turned(p);
             Bound { c: if inner { sub_down(p.k, p.e) } else { add_up(p.k, p.e) }, a, b }
         }));
@@ -98,7 +100,7 @@ fn inner_area(s: &mut Scratch) -> f64 {
             right = right.min(div_down(c, -p.a));
         }
     }
-    if !(left < right) {
+    if left >= right {
         return 0.0;
     }
     nodes(s, left, right);
@@ -148,7 +150,7 @@ fn outer_area(s: &mut Scratch) -> f64 {
             right = right.min(div_up(c, -p.a));
         }
     }
-    if !(left < right) {
+    if left >= right {
         return 0.0;
     }
     nodes(s, left, right);
@@ -262,7 +264,7 @@ mod tests {
 
     #[test]
     fn one_plane() {
-        let plane = |k, a, b, e| HalfPlane { k, a, b, e };
+        let plane = |k, a, b, e| HalfPlane { k, a, b, e, hides: true };
         check(&[plane(0.0, 1.0, 0.0, 0.0)], 0.0);
         check(&[plane(0.5, 0.0, 1.0, 0.25)], 1e-15);
         check(&[plane(0.1, 0.3, -0.7, 1e-3)], 1e-15);
@@ -284,7 +286,7 @@ mod tests {
                 .map(|_| {
                     let scale = if round % 5 == 0 { 1e-9 } else { 1.0 };
                     let tilt = if round % 7 == 0 { 1e-6 } else { 1.0 };
-                    HalfPlane { k: next() * scale, a: next() * scale, b: next() * scale * tilt, e: next().abs() * 0.05 * scale }
+                    HalfPlane { k: next() * scale, a: next() * scale, b: next() * scale * tilt, e: next().abs() * 0.05 * scale, hides: true }
                 })
                 .collect();
             check(&planes, 1e-9);
@@ -294,11 +296,13 @@ mod tests {
     #[test]
     fn nothing_is_known_from_nothing() {
         for bad in [f64::NAN, f64::INFINITY] {
-            let plane = HalfPlane { k: 1.0, a: 0.0, b: 0.0, e: bad };
+            let plane = HalfPlane { k: 1.0, a: 0.0, b: 0.0, e: bad, hides: true };
             assert_eq!(shares(&[plane], &mut Scratch::default()), Shares { lit: 0.0, open: 1.0 });
-            let plane = HalfPlane { k: bad, a: 0.0, b: 0.0, e: 0.0 };
+            let plane = HalfPlane { k: bad, a: 0.0, b: 0.0, e: 0.0, hides: true };
             assert_eq!(shares(&[plane], &mut Scratch::default()), Shares { lit: 0.0, open: 1.0 });
         }
+        let lit_only = HalfPlane { k: 0.0, a: 1.0, b: 0.0, e: 0.0, hides: false };
+        assert_eq!(shares(&[lit_only], &mut Scratch::default()), Shares { lit: 0.5, open: 1.0 });
         assert_eq!(shares(&[], &mut Scratch::default()), Shares { lit: 1.0, open: 1.0 });
     }
 }

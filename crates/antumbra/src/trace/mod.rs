@@ -1,12 +1,21 @@
-//! Where does a beam meet a surface first? And: does it meet one at all? Two questions, two functions.
+//! Where does a beam meet a surface first? And: does it meet one at all?
 //!
-//! Both search by the paper's stackless bisection ("Root Searching") in the marked cells of a grid. A reported
-//! intersection is what the paper calls one: a section of T narrower than a limit in which the inclusion function
-//! could not exclude a zero. Its absence is a proof.
+//! Two families. The paper's: stackless bisection ("Root Searching") in the marked cells of a grid; what it reports is a
+//! section of T narrower than a limit in which the inclusion function could not exclude a zero, and its absence is a
+//! proof. The certified one: frusta in affine form that hand their open pieces down ([`narrow`]), and the first root of a
+//! ray, proved by signs and enclosed by interval Newton ([`first_meeting`]).
 #![deny(clippy::float_arithmetic)]
 mod bisection;
+mod frustum;
+mod piece;
+#[allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
+mod policy;
+mod ray;
 
 pub use bisection::{Bisection, first_section};
+pub use frustum::{Known, narrow};
+pub use piece::{Piece, Sign, Surface, certainly_continuous};
+pub use ray::{Meeting, Scratch, first_meeting};
 
 use crate::eval::{Inclusion, Workspace};
 use crate::geom::Beam;

@@ -1,0 +1,128 @@
+//! Where to cut beams: choices that cost or save time and never touch a proof. The only file of this room with float
+//! arithmetic. The constants were measured on the paper's four scenes.
+use crate::geom::Rect;
+use antumbra_interval::Interval;
+
+/// The slope form is used on pieces with `t_lo <= SLOPE * t_hi`: near the hit, where plain values cancel. Turned nearly
+/// off, the Kusner-Schmitt surface costs six times as much.
+const SLOPE: f64 = 0.9;
+/// The same for shafts.
+const SHAFT_SLOPE: f64 = 0.5;
+/// A piece is halved while longer than this many widths of its rectangle; at the root of the light ...
+const ROOT_ASPECT: f64 = 1.0;
+/// ... and below it.
+const ASPECT: f64 = 2.0;
+/// ... and in shafts.
+const SHAFT_ASPECT: f64 = 0.7;
+/// Widths grow along the beam as t, but count at least as at this t.
+const NEAR: f64 = 0.3;
+/// Never halve below this length.
+const SHORTEST: f64 = 1e-9;
+
+pub(super) fn slope_pays(t: Interval) -> bool {
+    t.lo() <= SLOPE * t.hi()
+}
+
+pub(super) fn shaft_slope_pays(t: Interval) -> bool {
+    t.lo() <= SHAFT_SLOPE * t.hi()
+}
+
+/// Longest edge of the part of the light with half the parameter ranges `u`, `v`.
+pub(super) fn size(light: &Rect, u: Interval, v: Interval) -> f64 {
+    let edge = |e: crate::geom::Vec3, r: Interval| e.length() * (r.hi() - r.lo());
+    edge(light.edge_u, u).max(edge(light.edge_v, v))
+}
+
+pub(super) fn long(t: Interval, distance: f64, size: f64, root: bool) -> bool {
+    let aspect = if root { ROOT_ASPECT } else { ASPECT };
+    let length = t.hi() - t.lo();
+    length * distance > aspect * size * t.hi().max(NEAR) && length > SHORTEST
+}
+
+/// `tile` is the extent of the hits, `size` that of the light.
+pub(super) fn long_in_shaft(t: Interval, distance: f64, size: f64, tile: f64) -> bool {
+    let length = t.hi() - t.lo();
+    let width = (tile * (1.0 - t.mid())).max(size * t.mid()).max(tile);
+    length * distance > SHAFT_ASPECT * width && length > SHORTEST
+}
+
+/// The two halves of an interval.
+pub(super) fn halves(t: Interval) -> [Interval; 2] {
+    let mid = t.mid();
+    [Interval::new(t.lo(), mid), Interval::new(mid, t.hi())]
+}
+
+/// The four quarters of a rectangle.
+pub(super) fn quarters(u: Interval, v: Interval) -> [[Interval; 2]; 4] {
+    let ([a, b], [c, d]) = (halves(u), halves(v));
+    [[a, c], [b, c], [a, d], [b, d]]
+}
+
+/// Share of the unit square `[-1, 1]^2` that a rectangle with dyadic sides covers: exact.
+pub(super) fn share(u: Interval, v: Interval) -> f64 {
+    0.25 * (u.hi() - u.lo()) * (v.hi() - v.lo())
+}
+
+/// Places of the hits of a tile, as symbols in `[-1, 1]`, and the normal equations of a linear fit.
+pub(super) struct Places {
+    center: [f64; 2],
+    half: [f64; 2],
+    moments: [f64; 5],
+    count: f64,
+}
+
+impl Places {
+    pub(super) fn of(places: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
+        let (mut lo, mut hi) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
+        for (i, j) in places.clone() {
+            for (k, x) in [f64::from(i), f64::from(j)].into_iter().enumerate() {
+                (lo[k], hi[k]) = (lo[k].min(x), hi[k].max(x));
+            }
+        }
+        // Exact: sums of small integers, halved; a power of two or more as the half width keeps quotients tame.
+        let center = [0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1])];
+        let half = [(0.5 * (hi[0] - lo[0])).max(0.5), (0.5 * (hi[1] - lo[1])).max(0.5)];
+        let mut places_of = Self { center, half, moments: [0.0; 5], count: 0.0 };
+        for (i, j) in places {
+            let [x, y] = places_of.rounded(i, j);
+            for (m, v) in places_of.moments.iter_mut().zip([x, y, x * x, x * y, y * y]) {
+                *m += v;
+            }
+            places_of.count += 1.0;
+        }
+        places_of
+    }
+
+    fn rounded(&self, i: u32, j: u32) -> [f64; 2] {
+        [(f64::from(i) - self.center[0]) / self.half[0], (f64::from(j) - self.center[1]) / self.half[1]]
+    }
+
+    /// Enclosures of the symbols of a place, within `[-1, 1]`.
+    pub(super) fn symbols(&self, i: u32, j: u32) -> [Interval; 2] {
+        [(i, 0), (j, 1)].map(|(x, k)| {
+            (Interval::point(f64::from(x)) - Interval::point(self.center[k])) / Interval::point(self.half[k])
+        })
+    }
+
+    /// Least-squares slopes of `z` by the two symbols.
+    pub(super) fn slopes(&self, hits: impl Iterator<Item = (u32, u32, f64)> + Clone) -> [f64; 2] {
+        let n = self.count;
+        let [sx, sy, sxx, sxy, syy] = self.moments;
+        let mean = hits.clone().map(|(_, _, z)| z).sum::<f64>() / n;
+        let (mut zx, mut zy) = (0.0, 0.0);
+        for (i, j, z) in hits {
+            let [x, y] = self.rounded(i, j);
+            zx += (z - mean) * x;
+            zy += (z - mean) * y;
+        }
+        let (xx, xy, yy) = (sxx - sx * sx / n + 1e-9, sxy - sx * sy / n, syy - sy * sy / n + 1e-9);
+        let det = xx * yy - xy * xy;
+        let slopes = [(yy * zx - xy * zy) / det, (xx * zy - xy * zx) / det];
+        if slopes.iter().all(|s| s.is_finite()) { slopes } else { [0.0; 2] }
+    }
+}
+
+/// A plane fits badly if its error is a quarter of the extent.
+pub(super) fn rough(roughness: f64, extent: f64) -> bool {
+    4.0 * roughness > extent
+}

@@ -1,0 +1,152 @@
+//! Shafts: one test for all hits of a tile of the screen.
+use super::occluders::{Receiver, fronts, hides};
+use super::policy::{halves, long_in_shaft, shaft_slope_pays, size};
+use crate::eval::Workspace;
+use crate::geom::{Box3, Fan, Rect};
+use crate::trace::{Cost, Piece, Sign, Surface};
+use antumbra_interval::Interval;
+use antumbra_interval::affine::{Affine, Slope};
+use antumbra_interval::round::{add_up, sub_up};
+
+/// The hits of a tile as a linear function of their place in it.
+#[derive(Clone, Debug)]
+pub struct Shaft {
+    /// Over (t, u, v, i, j): contains every hit of the tile at its (i, j).
+    apex: [Affine<5>; 3],
+    /// What all hits have in common.
+    surface: usize,
+    side: Sign,
+    /// Extent of the hits.
+    extent: f64,
+    /// Largest error of the linear function.
+    roughness: f64,
+}
+
+/// What a shaft test proved of all hits of its tile.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum ShaftVerdict {
+    /// Every one sees the whole light.
+    Lit,
+    /// None sees any of it.
+    Dark,
+    /// Neither: the pieces that stay open have been written.
+    Open,
+}
+
+impl Shaft {
+    /// Fits a plane through hits `(i, j, receiver)`; `None` if they are on different surfaces or sides.
+    ///
+    /// The fit is a least-squares one, in plain arithmetic; the remainder is then enclosed: `e_k` bounds
+    /// `|P_k - c_k - a_k i - b_k j|` over all hits and all points of their enclosures, so any fit is sound.
+    #[must_use]
+    pub fn fit(hits: &[(u32, u32, &Receiver)]) -> Option<Self> {
+        let (_, _, first) = hits.first()?;
+        if hits.iter().any(|(_, _, r)| r.surface != first.surface || r.side != first.side) {
+            return None;
+        }
+        let place = super::policy::Places::of(hits.iter().map(|(i, j, _)| (*i, *j)));
+        let mut shaft =
+            Self { apex: [Affine::ZERO; 3], surface: first.surface, side: first.side, extent: 0.0, roughness: 0.0 };
+        for k in 0..3 {
+            let [a, b] = place.slopes(hits.iter().map(|(i, j, r)| (*i, *j, r.point[k].mid())));
+            let (slope_i, slope_j) = (Interval::point(a), Interval::point(b));
+            let mut rest = Interval::EMPTY;
+            for (i, j, receiver) in hits {
+                let [x, y] = place.symbols(*i, *j);
+                rest = rest.hull(receiver.point[k] - (slope_i * x + slope_j * y));
+            }
+            let center = rest.mid();
+            let error = rest.radius();
+            shaft.apex[k] = Affine::linear(center, [0.0, 0.0, 0.0, a, b], error);
+            let extent = shaft.apex[k].range().width();
+            shaft.extent = shaft.extent.max(extent);
+            shaft.roughness = shaft.roughness.max(error);
+        }
+        Some(shaft)
+    }
+
+    /// Whether a plane fits so badly that dividing the tile is the better idea.
+    #[must_use]
+    pub fn rough(&self) -> bool {
+        super::policy::rough(self.roughness, self.extent)
+    }
+}
+
+/// Tests the beams from all hits of a shaft to the whole light, in the given open pieces; those that stay open go to
+/// `open`.
+#[expect(clippy::too_many_arguments, reason = "the question, then the answer and the scratch memory of the thread")]
+pub fn shaft(
+    surfaces: &[Surface<'_>],
+    shaft: &Shaft,
+    light: &Rect,
+    pieces: &[Piece],
+    open: &mut Vec<Piece>,
+    stack: &mut Vec<Piece>,
+    work: &mut Workspace,
+    cost: &mut Cost,
+) -> ShaftVerdict {
+    cost.beams += 1;
+    let unit = Interval::new(-1.0, 1.0);
+    let apex = Box3(shaft.apex.map(|x| x.range()));
+    let whole = Fan::towards(apex, light, unit, unit);
+    let receiver = Receiver { point: apex, surface: shaft.surface, side: shaft.side };
+    let fronts = fronts(surfaces, &receiver, &whole, work, cost);
+    let (u, v) = (Affine::<5>::spanning(1, unit), Affine::<5>::spanning(2, unit));
+    let direction: [Affine<5>; 3] = std::array::from_fn(|k| {
+        (u.mul_f64(light.edge_u[k]) + v.mul_f64(light.edge_v[k])).add_f64(light.center[k]) - shaft.apex[k]
+    });
+    let directions = Box3(direction.map(|d| d.range()));
+    let distance = (0..3).map(|k| directions[k].magnitude()).fold(0.0, f64::max);
+    let width = size(light, unit, unit);
+    open.clear();
+    stack.clear();
+    stack.extend(pieces.iter().rev());
+    while let Some(Piece { surface, t }) = stack.pop() {
+        let at = &surfaces[surface];
+        let passage = at.clip.passage(&apex, &directions);
+        let t = t.intersection(passage.outer);
+        if t.is_empty() {
+            continue;
+        }
+        let front = fronts[surface];
+        cost.evaluations += 1;
+        let s = Affine::<5>::spanning(0, t);
+        let point: [Slope<Affine<5>, 5>; 3] =
+            std::array::from_fn(|k| Slope::coordinate(shaft.apex[k], s, direction[k]));
+        let own = surface == shaft.surface;
+        // At t = 0 only the slope tells anything.
+        let form = if own && (shaft_slope_pays(t) || t.lo() == 0.0) {
+            at.function.shaft_slope(point, work)
+        } else {
+            at.function.shaft(point.map(|x| x.value), work)
+        };
+        let form = if front.is_some_and(|f| f.sign == Sign::Negative) { -form } else { form };
+        let range = form.range();
+        if range.certainly_positive() {
+            continue;
+        }
+        let [along, rest @ ..] = *form.coefficients();
+        let lowest_at = if along < 0.0 { t.hi() } else { t.lo() };
+        let bottom = sub_up(form.centre(), along.abs());
+        let top = rest.iter().fold(add_up(bottom, form.error()), |s, a| add_up(s, a.abs()));
+        let region = |t| Box3(std::array::from_fn(|k| apex[k] + t * directions[k]));
+        if top < 0.0 && hides(at, front, lowest_at, &passage, region, work) {
+            return ShaftVerdict::Dark;
+        }
+        if range.certainly_negative() {
+            if own && t.lo() == 0.0 {
+                return ShaftVerdict::Dark;
+            }
+            continue;
+        }
+        if long_in_shaft(t, distance, width, shaft.extent) {
+            let [near, far] = halves(t);
+            let (first, second) = if along < 0.0 { (far, near) } else { (near, far) };
+            stack.push(Piece { surface, t: second });
+            stack.push(Piece { surface, t: first });
+        } else {
+            open.push(Piece { surface, t });
+        }
+    }
+    if open.is_empty() { ShaftVerdict::Lit } else { ShaftVerdict::Open }
+}

@@ -1,0 +1,143 @@
+//! The visible fraction of a light from one hit.
+use super::occluders::{Receiver, fronts};
+use super::policy::{quarters, share};
+use super::rectangle::{self, Answer, Query};
+use crate::eval::Workspace;
+use crate::geom::{Fan, Rect};
+use crate::trace::{Cost, Piece, Surface};
+use crate::verdict::Reason;
+use antumbra_interval::Interval;
+use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_up};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// The visible fraction lies in `[lo, hi]`: proved.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Bracket {
+    /// Lower bound, at least 0.
+    pub lo: f64,
+    /// Upper bound, at most 1.
+    pub hi: f64,
+    /// Why the bracket is wider than was asked for; `None` if it is not.
+    pub reason: Option<Reason>,
+}
+
+impl Bracket {
+    /// All of the light.
+    pub const LIT: Self = Self { lo: 1.0, hi: 1.0, reason: None };
+    /// None of it.
+    pub const DARK: Self = Self { lo: 0.0, hi: 0.0, reason: None };
+}
+
+/// When to stop.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Width of a bracket that is narrow enough.
+    pub width: f64,
+    /// Rectangles of a light that one hit may take.
+    pub rectangles: u32,
+}
+
+/// Scratch memory of one thread.
+#[derive(Debug, Default)]
+pub struct Scratch {
+    rectangle: rectangle::Scratch,
+    pieces: Vec<Piece>,
+    heap: BinaryHeap<Node>,
+}
+
+/// A rectangle that is partly unknown.
+#[derive(Clone, Debug, PartialEq)]
+struct Node {
+    unknown: f64,
+    part: [Interval; 2],
+    pieces: (usize, usize),
+    /// Bounds of its visible share of the whole light.
+    lit: f64,
+    open: f64,
+}
+
+impl Eq for Node {}
+
+impl PartialOrd for Node {
+    fn partial_cmp(&self, o: &Self) -> Option<Ordering> {
+        Some(self.cmp(o))
+    }
+}
+
+impl Ord for Node {
+    /// By the unknown area; equal ones by place, so that the order is always the same.
+    fn cmp(&self, o: &Self) -> Ordering {
+        self.unknown
+            .total_cmp(&o.unknown)
+            .then_with(|| o.part[0].lo().total_cmp(&self.part[0].lo()))
+            .then_with(|| o.part[1].lo().total_cmp(&self.part[1].lo()))
+    }
+}
+
+/// The certified visible fraction of `light` from a hit, given the open pieces of its beam (by default all of `[0, 1]`
+/// for each surface: [`whole_beam`]).
+///
+/// Guarantee: `lo <= V <= hi` for the true hit. Cost: one evaluation settles most hits; in a penumbra some hundred.
+#[expect(clippy::too_many_arguments, reason = "the question, then the scratch memory of the thread")]
+pub fn visible(
+    surfaces: &[Surface<'_>],
+    receiver: &Receiver,
+    light: &Rect,
+    pieces: &[Piece],
+    tolerance: Tolerance,
+    s: &mut Scratch,
+    work: &mut Workspace,
+    cost: &mut Cost,
+) -> Bracket {
+    if pieces.is_empty() {
+        return Bracket::LIT;
+    }
+    let unit = Interval::new(-1.0, 1.0);
+    let whole = Fan::towards(receiver.point, light, unit, unit);
+    let fronts = fronts(surfaces, receiver, &whole, work, cost);
+    let query = Query { surfaces, receiver, fronts: &fronts, light };
+    let Scratch { rectangle, pieces: arena, heap } = s;
+    arena.clear();
+    arena.extend_from_slice(pieces);
+    heap.clear();
+    // Bounds of what is settled, and an upper bound of what is not.
+    let (mut lit, mut lit_up, mut unknown) = (0.0, 0.0, 0.0);
+    let mut rectangles = 0;
+    let mut parts = vec![([unit, unit], 0, arena.len())];
+    loop {
+        for (part, from, to) in parts.drain(..) {
+            rectangles += 1;
+            let begin = arena.len();
+            let area = share(part[0], part[1]);
+            match query.look(part, from..to, arena, rectangle, work, cost) {
+                Answer::Dark => {}
+                Answer::Lit => (lit, lit_up) = (add_down(lit, area), add_up(lit_up, area)),
+                Answer::Open { lit, open } => {
+                    let (lit, open) = (mul_down(area, lit), mul_up(area, open));
+                    let node =
+                        Node { unknown: sub_up(open, lit), part, pieces: (begin, arena.len()), lit, open };
+                    unknown = add_up(unknown, node.unknown);
+                    heap.push(node);
+                }
+            }
+        }
+        if unknown <= tolerance.width || rectangles >= tolerance.rectangles {
+            break;
+        }
+        let Some(node) = heap.pop() else { break };
+        // Rounded up, so the sum may creep upwards, by far less than a tolerance.
+        unknown = if heap.is_empty() { 0.0 } else { sub_up(unknown, node.unknown) };
+        parts.extend(quarters(node.part[0], node.part[1]).map(|part| (part, node.pieces.0, node.pieces.1)));
+    }
+    let lo = heap.iter().fold(lit, |sum, node| add_down(sum, node.lit)).clamp(0.0, 1.0);
+    let hi = heap.iter().fold(lit_up, |sum, node| add_up(sum, node.open)).clamp(0.0, 1.0);
+    let reason = (sub_up(hi, lo) > tolerance.width).then_some(Reason::Budget);
+    Bracket { lo, hi, reason }
+}
+
+/// The open pieces when nothing is known: each surface, all the way to the light.
+#[must_use]
+pub fn whole_beam(surfaces: &[Surface<'_>]) -> Vec<Piece> {
+    (0..surfaces.len()).map(|surface| Piece { surface, t: Interval::new(0.0, 1.0) }).collect()
+}

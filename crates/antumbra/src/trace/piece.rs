@@ -1,0 +1,53 @@
+//! Surfaces as the certified search sees them, and pieces of beams that are still open.
+use crate::eval::{Inclusion, Workspace};
+use crate::geom::{Box3, Clip};
+use antumbra_interval::Interval;
+
+/// A surface `{f = 0}` inside a region.
+#[derive(Clone, Copy)]
+pub struct Surface<'a> {
+    /// The function.
+    pub function: &'a dyn Inclusion,
+    /// Where the surface exists.
+    pub clip: Clip,
+}
+
+/// A piece of a beam, parameters `t`, in which a surface may be met: everything else is settled.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Piece {
+    /// Index of the surface.
+    pub surface: usize,
+    /// Parameters.
+    pub t: Interval,
+}
+
+/// A proved sign.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Sign {
+    /// Less than 0.
+    Negative,
+    /// Greater than 0.
+    Positive,
+}
+
+impl Sign {
+    /// The sign of every number in the interval, if it is one and the same; none for the empty interval.
+    #[must_use]
+    #[inline]
+    pub fn of(range: Interval) -> Option<Self> {
+        if range.is_empty() {
+            None
+        } else if range.certainly_positive() {
+            Some(Self::Positive)
+        } else if range.certainly_negative() {
+            Some(Self::Negative)
+        } else {
+            None
+        }
+    }
+}
+
+/// Whether the function is proved defined and continuous on the box.
+pub fn certainly_continuous(f: &dyn Inclusion, region: &Box3, work: &mut Workspace) -> bool {
+    f.continuous_everywhere() || f.decorated(region, work).certainly_continuous()
+}
