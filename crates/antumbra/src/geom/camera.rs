@@ -82,9 +82,16 @@ impl Film {
     /// The beam of the pixel's centre ray, thin up to rounding.
     #[must_use]
     pub fn ray(&self, column: usize, row: usize) -> Beam {
-        let middle =
-            |k: usize, n: usize| Interval::point((2 * k + 1) as f64) / Interval::point(n as f64) - Interval::ONE;
-        let (x, y) = (middle(column, self.width), -middle(row, self.height));
+        self.sub_ray(column, row, 0, 0, 1)
+    }
+
+    /// The ray through the middle of part `(i, j)` of the `n x n` parts of a pixel, thin up to rounding.
+    #[must_use]
+    pub fn sub_ray(&self, column: usize, row: usize, i: usize, j: usize, n: usize) -> Beam {
+        let middle = |k: usize, part: usize, count: usize| {
+            Interval::point((2 * (k * n + part) + 1) as f64) / Interval::point((count * n) as f64) - Interval::ONE
+        };
+        let (x, y) = (middle(column, i, self.width), -middle(row, j, self.height));
         Beam { origin: self.camera.eye, direction: self.directions(x, y) }
     }
 }

@@ -18,7 +18,7 @@ pub struct Grid {
 
 impl Grid {
     /// Evaluates the inclusion function over each of the `n^3` cells of `bounds` (paper: "the united extension
-    /// F(X, Y, Z) is used"). The bounds must be bounded. Runs on the threads of the current rayon pool.
+    /// F(X, Y, Z) is used"), `bounds` being those of the surface's region, which must be bounded. Runs on the threads of the current rayon pool.
     #[must_use]
     pub fn build(f: &dyn Inclusion, bounds: Box3, n: usize) -> Self {
         let cells: [Vec<Interval>; 3] = std::array::from_fn(|axis| slabs(bounds[axis], n));

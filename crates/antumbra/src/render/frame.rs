@@ -9,8 +9,8 @@ pub struct Frame {
     pub width: usize,
     /// Rows.
     pub height: usize,
-    /// What is known of the pixel: 0 proved empty, 1 proved hit, 2 and more undecided, by [`Frame::verdict_code`];
-    /// 255 not yet looked at.
+    /// What is known of the pixel: 0 proved empty, 1 proved hit (of the centre ray), 2 to 5 undecided
+    /// ([`Frame::verdict_code`]), [`Frame::PARTLY`], or [`Frame::UNSEEN`].
     pub verdict: Vec<u8>,
     /// No ray of the pixel meets anything before this parameter (distance along the view axis from the eye); NaN where
     /// the pixel is empty.
@@ -26,6 +26,13 @@ pub struct Frame {
     pub visible_hi: Vec<f64>,
     /// Cosine between normal and the direction to the light's centre; 0 where the pixel is empty.
     pub facing: Vec<f32>,
+    /// Bounds of the share of the pixel's rays that meet a surface. Certified by the method `certified`; the paper's
+    /// methods know only 0 (proved empty) and "0 to 1".
+    pub coverage_lo: Vec<f64>,
+    /// Upper bound of it.
+    pub coverage_hi: Vec<f64>,
+    /// Whether the first shadow beam, over the whole light, was not found free (paper: "initial beam occluded").
+    pub initial_occluded: Vec<bool>,
     /// Evaluations of inclusion functions that the pixel took.
     pub cost: Vec<u32>,
     /// Colour, linear, Rec. 709 primaries, about 0 to 1. Not certified.
@@ -35,6 +42,9 @@ pub struct Frame {
 impl Frame {
     /// The code of a pixel that nobody has looked at yet.
     pub const UNSEEN: u8 = 255;
+
+    /// The code of a pixel whose centre ray meets nothing while another of its rays meets a surface: both proved.
+    pub const PARTLY: u8 = 6;
 
     /// A frame of unseen pixels.
     ///
@@ -59,11 +69,14 @@ impl Frame {
                 visible_lo: plane(n, f64::NAN)?,
                 visible_hi: plane(n, f64::NAN)?,
                 facing: plane(n, 0.0)?,
+                coverage_lo: plane(n, 0.0)?,
+                coverage_hi: plane(n, 1.0)?,
+                initial_occluded: plane(n, false)?,
                 cost: plane(n, 0)?,
                 rgb: plane(n, [0.0; 3])?,
             })
         };
-        make().ok_or(Error::Memory { width, height, bytes: n * 65 })
+        make().ok_or(Error::Memory { width, height, bytes: n * 82 })
     }
 
     /// The code of a verdict in the plane [`Frame::verdict`]: 0 no, 1 yes, 2 resolution, 3 touching, 4 domain, 5 budget.

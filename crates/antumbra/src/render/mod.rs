@@ -2,11 +2,16 @@
 //!
 //! *What* to draw is a [`RenderSpec`], *how* to run a [`RunSpec`]. A [`Renderer`] is asked to `refine` for a while, and
 //! shows its `frame` and `stats` at any time: command line, viewer, web page and Python use nothing else.
+mod book;
+mod by_paper;
+mod by_proof;
 mod frame;
+mod pixel;
 mod renderer;
 mod shade;
 mod spec;
 mod stats;
+mod task;
 
 pub use frame::Frame;
 pub use renderer::Renderer;

@@ -14,11 +14,15 @@ pub(super) struct Point {
     pub(super) floor: bool,
     /// Fraction of the light that is visible.
     pub(super) visible: f64,
+    /// Whether f seems to touch 0 there without a change of sign: not proved to be a surface.
+    pub(super) touching: bool,
 }
 
 /// Outside of a surface: warm clay. Inside: slate blue.
 const OUTSIDE: [f64; 3] = [0.80, 0.43, 0.20];
 const INSIDE: [f64; 3] = [0.16, 0.36, 0.50];
+/// What may be a surface: violet, like nothing else.
+const TOUCHING: [f64; 3] = [0.55, 0.20, 0.60];
 const FLOOR: [f64; 3] = [0.62, 0.62, 0.64];
 /// Colour of the light, times its strength over pi.
 const KEY: [f64; 3] = [0.95, 0.92, 0.86];
@@ -42,10 +46,11 @@ pub(super) fn shade(p: &Point, light: Vec3, eye: Vec3, backdrop: [f64; 3], scale
     let half = (to_light + to_eye).normalized();
     let gloss = if p.floor { 0.0 } else { 0.22 * core_math::pow(p.normal.dot(half).max(0.0), 48.0) };
     let up = 0.5 + 0.5 * p.normal[2];
-    let base = match (p.floor, p.outside) {
-        (true, _) => FLOOR,
-        (false, true) => OUTSIDE,
-        (false, false) => INSIDE,
+    let base = match p {
+        Point { touching: true, .. } => TOUCHING,
+        Point { floor: true, .. } => FLOOR,
+        Point { outside: true, .. } => OUTSIDE,
+        _ => INSIDE,
     };
     let color: [f64; 3] = std::array::from_fn(|i| {
         let fill = GROUND[i] + (SKY[i] - GROUND[i]) * up;

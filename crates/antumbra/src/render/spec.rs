@@ -5,14 +5,16 @@ use crate::trace::Bisection;
 /// How shadows are found.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
 pub enum Method {
+    /// Everything proved or counted: brackets of the visible fraction, without an offset.
+    Certified,
     /// One of the paper's, on the hits of its beam casting.
     Paper(paper::Method),
 }
 
-
 impl Method {
     /// Every method with the name it has on the command line, and what it is.
-    pub const ALL: [(Self, &'static str, &'static str); 6] = [
+    pub const ALL: [(Self, &'static str, &'static str); 7] = [
+        (Self::Certified, "certified", "proved hits, light fractions as proved brackets"),
         (Self::Paper(paper::Method::Initial), "paper", "one initial shadow beam, n x n sub-beams where it may be blocked"),
         (Self::Paper(paper::Method::Fixed), "fixed49", "always n x n sub-beams (the paper's baseline)"),
         (Self::Paper(paper::Method::Quadtree), "paper-quadtree", "the light divided as a quadtree"),
@@ -63,6 +65,10 @@ pub struct RenderSpec {
     pub bisection: Bisection,
     /// Seed of the random rays.
     pub seed: u64,
+    /// Certified: width of a bracket of the visible fraction that is narrow enough.
+    pub tolerance: f64,
+    /// Certified: rectangles of the light that one hit may take.
+    pub rectangles: u32,
 }
 
 impl RenderSpec {
@@ -83,6 +89,8 @@ impl Default for RenderSpec {
             offset: None,
             bisection: Bisection::default(),
             seed: 1,
+            tolerance: 1.0 / 255.0,
+            rectangles: 4000,
         }
     }
 }
@@ -147,6 +155,12 @@ impl RenderSpec {
             && !(0.0..=1e300).contains(&offset)
         {
             return bad("the offset", "a finite distance of at least 0", offset.to_string());
+        }
+        if !(self.tolerance >= 1e-9 && self.tolerance <= 1.0) {
+            return bad("the tolerance", "from 1e-9 to 1", self.tolerance.to_string());
+        }
+        if self.rectangles == 0 {
+            return bad("the number of rectangles", "at least 1", self.rectangles.to_string());
         }
         if !(self.bisection.width > 0.0 && self.bisection.width.is_finite()) {
             return bad("the bisection width", "finite and greater than 0", self.bisection.width.to_string());

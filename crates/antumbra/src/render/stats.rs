@@ -18,21 +18,40 @@ pub struct Stats {
     pub floor_hits: u64,
     /// Pixels proved empty.
     pub proved_empty: u64,
-    /// Hits with shadow index 0.
+    /// Pixels whose centre ray is proved to meet a surface.
+    pub proved_hit: u64,
+    /// Pixels whose centre ray is proved to miss, and some other ray to meet a surface.
+    pub proved_partly: u64,
+    /// Pixels undecided because the search ended at its smallest interval: all hits of the paper's methods; of the
+    /// certified one, pixels at the very edge of a silhouette.
+    pub undecided_resolution: u64,
+    /// ... because f seems to touch 0 without a change of sign.
+    pub undecided_touching: u64,
+    /// ... because f may be undefined or discontinuous there.
+    pub undecided_domain: u64,
+    /// ... because the permitted work was spent.
+    pub undecided_budget: u64,
+    /// Hits that see the whole light (certified: proved).
     pub lit: u64,
-    /// Hits with a shadow index between 0 and 1.
+    /// Hits that see a part of it.
     pub partly: u64,
-    /// Hits with shadow index 1.
+    /// Hits that see nothing of it (certified: proved).
     pub dark: u64,
+    /// Hits whose bracket is wider than the tolerance.
+    pub brackets_open: u64,
+    /// Width of the widest bracket.
+    pub bracket_width_max: f64,
     /// Of the hits in shadow, those whose surface is turned to the light's centre: the others are dark anyway.
     pub in_shadow_facing: u64,
     /// Hits whose initial shadow beam may be blocked (paper: "initial beams occluded").
     pub initial_occluded: u64,
-    /// Pixel beams (or rays).
+    /// Of these, hits that turned out fully lit: false alarms of the first beam.
+    pub false_alarms: u64,
+    /// Pixel beams (or rays); certified: frusta.
     pub pixel_beams: u64,
-    /// Initial shadow beams.
+    /// Initial shadow beams; certified: shafts.
     pub initial_beams: u64,
-    /// Sub-beams (or shadow rays): the paper's "No. beams".
+    /// Sub-beams (or shadow rays): the paper's "No. beams"; certified: rectangles of the light.
     pub beams: u64,
     /// Evaluations of inclusion functions to build the grid.
     pub grid_evaluations: u64,
@@ -48,6 +67,41 @@ pub struct Stats {
     pub primary_seconds: f64,
     /// Time for the shadows.
     pub shadow_seconds: f64,
-    /// The sum of these three.
+    /// Time for colours.
+    pub shading_seconds: f64,
+    /// The sum of these four.
     pub seconds: f64,
+}
+
+impl Stats {
+    /// With the sums filled in.
+    pub(super) fn totalled(&self) -> Self {
+        Self {
+            evaluations: self.grid_evaluations + self.primary_evaluations + self.shadow_evaluations,
+            seconds: self.grid_seconds + self.primary_seconds + self.shadow_seconds + self.shading_seconds,
+            ..self.clone()
+        }
+    }
+
+    /// As they were before the shadows, for another method.
+    pub(super) fn forget_shadows(&mut self, method: &str) {
+        let old = std::mem::take(self);
+        *self = Self {
+            method: method.to_owned(),
+            lit: 0,
+            partly: 0,
+            dark: 0,
+            brackets_open: 0,
+            bracket_width_max: 0.0,
+            in_shadow_facing: 0,
+            initial_occluded: 0,
+            false_alarms: 0,
+            initial_beams: 0,
+            beams: 0,
+            shadow_evaluations: 0,
+            shadow_seconds: 0.0,
+            shading_seconds: 0.0,
+            ..old
+        };
+    }
 }

@@ -90,12 +90,13 @@ fn mean_value(f: &dyn Inclusion, cell: &Box3, work: &mut Workspace) -> Interval 
 /// A scene around one object: the camera sees its clip box from the front, a little to the right and above; a square
 /// light of a tenth of the picture's width (paper, section 4) hangs above, to the left.
 pub(super) fn scene(name: String, title: String, object: Object) -> Scene {
-    let (centre, half) = (object.clip.mid(), object.clip.half_extent());
+    let bounds = object.clip.bounds();
+    let (centre, half) = (bounds.mid(), bounds.half_extent());
     let radius = half.0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let eye = centre + Vec3::new(3.0, -4.0, 3.0) * radius;
     let light = Rect::horizontal(centre + Vec3::new(-1.0, -2.0, 6.0) * radius, 0.25 * radius);
-    let view = View { eye, target: centre, fov_deg: angle_over(&object.clip, eye, centre) };
-    Scene { name, title, floor_height: object.clip[2].lo() - 0.05 * radius, view, light, objects: vec![object] }
+    let view = View { eye, target: centre, fov_deg: angle_over(&bounds, eye, centre) };
+    Scene { name, title, floor_height: bounds[2].lo() - 0.05 * radius, view, light, objects: vec![object] }
 }
 
 /// The full angle, in degrees, that shows the ellipsoid inside the box and a margin. (Corners of the box are mostly empty.)
@@ -110,7 +111,7 @@ mod tests {
     use super::*;
 
     fn extent_of(text: &str) -> Extent {
-        extent(Object::parse(text, Box3::cube(1.0)).unwrap().surface.as_ref())
+        extent(Object::parse(text, crate::geom::Clip::Everywhere).unwrap().surface.as_ref())
     }
 
     #[test]

@@ -7,7 +7,8 @@ pub use framing::{Extent, extent};
 pub use object::{Error, Object};
 pub use presets::{PRESETS, Preset, preset};
 
-use crate::geom::{Box3, Camera, Rect, Vec3};
+use antumbra_interval::Interval;
+use crate::geom::{Box3, Camera, Clip, Rect, Vec3};
 
 /// A scene, complete and valid.
 #[derive(Clone, Debug)]
@@ -51,16 +52,31 @@ impl Scene {
     /// # Errors
     /// The formula's own errors, with the place in the text.
     pub fn from_formula(text: &str) -> Result<Self, Error> {
-        let mut object = Object::parse(text, Box3::cube(1.0))?;
+        let mut object = Object::parse(text, Clip::Everywhere)?;
         let found = extent(object.surface.as_ref());
-        object.clip = found.clip();
+        object.clip = Clip::Box(found.clip());
         Ok(framing::scene(text.trim().to_owned(), "Formula".to_owned(), object))
     }
 
     /// Half the largest edge of the box that holds all objects: the scale of the scene.
     #[must_use]
     pub fn scale(&self) -> f64 {
-        let hull = self.objects.iter().map(|o| o.clip).reduce(Box3::hull);
+        let hull = self.objects.iter().map(|o| o.clip.bounds()).reduce(Box3::hull);
         hull.map_or(1.0, |b| b.half_extent().0.into_iter().fold(0.0, f64::max))
     }
+
+    /// The floor as a surface of its own: a square of [`FLOOR_REACH`](Self::FLOOR_REACH) scales around the scene's axis.
+    ///
+    /// # Errors
+    /// None: the formula is `z - height`.
+    pub fn floor(&self) -> Result<Object, Error> {
+        let (reach, scale) = (Self::FLOOR_REACH, self.scale());
+        let (h, wide) = (self.floor_height, Interval::new(-reach * scale, reach * scale));
+        let clip = Clip::Box(Box3([wide, wide, Interval::new(h - scale, h + scale)]));
+        // Written with the shortest decimal that reads back as this height: that decimal is the floor's exact height.
+        Object::parse(&format!("z - ({h:?}) = 0"), clip)
+    }
+
+    /// How far the floor reaches, in scales of the scene.
+    pub const FLOOR_REACH: f64 = 100.0;
 }

@@ -1,7 +1,7 @@
 //! A surface of a scene.
 use crate::eval::Inclusion;
 use crate::expr::{self, Formula};
-use crate::geom::Box3;
+use crate::geom::Clip;
 use crate::tape::{Tape, TapeError};
 use std::sync::Arc;
 
@@ -12,8 +12,8 @@ pub struct Object {
     pub text: String,
     /// Its zero set's function, rewritten so that it changes sign where it can.
     pub surface: Arc<dyn Inclusion>,
-    /// The surface exists only in here.
-    pub clip: Box3,
+    /// The surface exists only in here, and ends at its border.
+    pub clip: Clip,
 }
 
 impl std::fmt::Debug for Object {
@@ -38,7 +38,7 @@ impl Object {
     ///
     /// # Errors
     /// See [`Error`].
-    pub fn parse(text: &str, clip: Box3) -> Result<Self, Error> {
+    pub fn parse(text: &str, clip: Clip) -> Result<Self, Error> {
         let formula = Formula::parse(text)?;
         let tape = Tape::compile(formula.surface().formula())?;
         Ok(Self { text: text.to_owned(), surface: Arc::new(tape), clip })

@@ -1,6 +1,6 @@
 //! Scenes by name: the four surfaces of the paper, and surfaces that other renderers get wrong.
 use super::{Error, Object, Scene, View, framing};
-use crate::geom::{Box3, Rect, Vec3};
+use crate::geom::{Box3, Clip, Rect, Vec3};
 
 /// A named scene in one row.
 #[derive(Clone, Copy, Debug)]
@@ -90,7 +90,7 @@ pub const PRESETS: &[Preset] = &[
 /// None for the presets as they are (tested); the type is that of formulas.
 pub fn preset(name: &str) -> Option<Result<Scene, Error>> {
     let row = PRESETS.iter().find(|p| p.name == name)?;
-    Some(Object::parse(row.formula, Box3::cube(row.half)).map(|object| {
+    Some(Object::parse(row.formula, Clip::Box(Box3::cube(row.half))).map(|object| {
         let mut scene = framing::scene(row.name.to_owned(), row.title.to_owned(), object);
         if let Some(stage) = row.stage {
             scene.floor_height = stage.floor;

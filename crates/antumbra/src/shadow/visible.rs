@@ -20,13 +20,15 @@ pub struct Bracket {
     pub hi: f64,
     /// Why the bracket is wider than was asked for; `None` if it is not.
     pub reason: Option<Reason>,
+    /// Whether the first beam, over the whole light, was proved free (the paper's case 1).
+    pub first_free: bool,
 }
 
 impl Bracket {
     /// All of the light.
-    pub const LIT: Self = Self { lo: 1.0, hi: 1.0, reason: None };
+    pub const LIT: Self = Self { lo: 1.0, hi: 1.0, reason: None, first_free: true };
     /// None of it.
-    pub const DARK: Self = Self { lo: 0.0, hi: 0.0, reason: None };
+    pub const DARK: Self = Self { lo: 0.0, hi: 0.0, reason: None, first_free: false };
 }
 
 /// When to stop.
@@ -133,7 +135,7 @@ pub fn visible(
     let lo = heap.iter().fold(lit, |sum, node| add_down(sum, node.lit)).clamp(0.0, 1.0);
     let hi = heap.iter().fold(lit_up, |sum, node| add_up(sum, node.open)).clamp(0.0, 1.0);
     let reason = (sub_up(hi, lo) > tolerance.width).then_some(Reason::Budget);
-    Bracket { lo, hi, reason }
+    Bracket { lo, hi, reason, first_free: rectangles == 1 && lit == 1.0 }
 }
 
 /// The open pieces when nothing is known: each surface, all the way to the light.

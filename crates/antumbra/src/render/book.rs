@@ -1,0 +1,168 @@
+//! What is known of the picture so far: the frame, its hits, and the statistics.
+use super::pixel::{Hit, Known, Light, Pixel};
+use super::shade::{self, Point};
+use super::task::Task;
+use super::{Frame, Method, Stats};
+use crate::verdict::{Reason, Verdict};
+use std::collections::BTreeMap;
+
+/// Frame, hits and statistics. Written by one thread, in the order of the pixels' tiles.
+pub(super) struct Book {
+    pub(super) frame: Frame,
+    pub(super) stats: Stats,
+    hits: Vec<Option<Hit>>,
+    /// Pixels that an edge crosses, with the hits of their grid of rays.
+    edges: BTreeMap<usize, Vec<Option<Hit>>>,
+    /// Evaluations that the search for the surface took, per pixel.
+    primary_cost: Vec<u32>,
+}
+
+impl Book {
+    pub(super) fn new(frame: Frame, method: Method, threads: usize) -> Self {
+        let (width, height) = (frame.width, frame.height);
+        let stats = Stats { method: method.name().to_owned(), width, height, threads, ..Stats::default() };
+        let (hits, primary_cost) = (vec![None; width * height], vec![0; width * height]);
+        Self { frame, stats, hits, edges: BTreeMap::new(), primary_cost }
+    }
+
+    pub(super) fn hit(&self, index: usize) -> Option<&Hit> {
+        self.hits[index].as_ref()
+    }
+
+    pub(super) fn restart_shadows(&mut self, method: Method) {
+        self.stats.forget_shadows(method.name());
+        for index in 0..self.hits.len() {
+            self.frame.cost[index] = self.primary_cost[index];
+            self.frame.initial_occluded[index] = false;
+            if self.hits[index].is_some() {
+                (self.frame.visible_lo[index], self.frame.visible_hi[index]) = (0.0, 1.0);
+            }
+        }
+    }
+
+    pub(super) fn put_pixel(&mut self, task: &Task, pixel: Pixel) {
+        let (frame, stats, index) = (&mut self.frame, &mut self.stats, pixel.index);
+        stats.pixel_beams += pixel.cost.beams;
+        stats.primary_evaluations += pixel.cost.evaluations;
+        self.primary_cost[index] = u32::try_from(pixel.cost.evaluations).unwrap_or(u32::MAX);
+        frame.cost[index] = self.primary_cost[index];
+        [frame.coverage_lo[index], frame.coverage_hi[index]] = pixel.coverage;
+        let (code, counter) = match pixel.known {
+            Known::Empty => (Frame::verdict_code(Verdict::No), &mut stats.proved_empty),
+            Known::Hit => (Frame::verdict_code(Verdict::Yes), &mut stats.proved_hit),
+            Known::Partly => (Frame::PARTLY, &mut stats.proved_partly),
+            Known::Undecided(reason) => (
+                Frame::verdict_code(Verdict::Unknown(reason)),
+                match reason {
+                    Reason::Resolution => &mut stats.undecided_resolution,
+                    Reason::Touching => &mut stats.undecided_touching,
+                    Reason::Domain => &mut stats.undecided_domain,
+                    Reason::Budget => &mut stats.undecided_budget,
+                },
+            ),
+        };
+        *counter += 1;
+        frame.verdict[index] = code;
+        if let Some(hit) = pixel.hit {
+            stats.hits += 1;
+            stats.floor_hits += u64::from(hit.floor);
+            (frame.t_lo[index], frame.t_hi[index]) = (hit.t.lo(), hit.t.hi());
+            frame.normal[index] = hit.normal.0.map(|c| c as f32);
+            frame.facing[index] = hit.normal.dot((task.light.center - hit.point).normalized()) as f32;
+            // Nothing is known of its light yet.
+            (frame.visible_lo[index], frame.visible_hi[index]) = (0.0, 1.0);
+        }
+        self.hits[index] = pixel.hit;
+        if let Some(edge) = pixel.edge {
+            self.edges.insert(index, edge);
+        }
+        self.frame.rgb[index] = self.color(task, index, pixel.hit.as_ref(), 1.0);
+    }
+
+    pub(super) fn put_light(&mut self, task: &Task, light: &Light) {
+        let Some(hit) = self.hits[light.index] else { return };
+        let (frame, stats, index) = (&mut self.frame, &mut self.stats, light.index);
+        (frame.visible_lo[index], frame.visible_hi[index]) = (light.lo, light.hi);
+        frame.initial_occluded[index] = light.first_occluded;
+        let class = match (light.lo, light.hi) {
+            (1.0, _) => &mut stats.lit,
+            (_, 0.0) => &mut stats.dark,
+            _ => &mut stats.partly,
+        };
+        *class += 1;
+        stats.in_shadow_facing += u64::from(light.lo < 1.0 && frame.facing[index] > 0.0);
+        stats.initial_occluded += u64::from(light.first_occluded);
+        stats.false_alarms += u64::from(light.first_occluded && light.lo == 1.0);
+        stats.brackets_open += u64::from(light.reason.is_some());
+        stats.bracket_width_max = stats.bracket_width_max.max(light.hi - light.lo);
+        stats.initial_beams += light.initial.beams;
+        stats.beams += light.sub.beams;
+        let evaluations = light.initial.evaluations + light.sub.evaluations;
+        stats.shadow_evaluations += evaluations;
+        frame.cost[index] = frame.cost[index].saturating_add(u32::try_from(evaluations).unwrap_or(u32::MAX));
+        self.frame.rgb[index] = self.color(task, index, Some(&hit), 0.5 * (light.lo + light.hi));
+    }
+
+    /// Colour of a pixel that shows one hit, or nothing.
+    fn color(&self, task: &Task, index: usize, hit: Option<&Hit>, visible: f64) -> [f32; 3] {
+        let (column, row) = (index % task.film.width, index / task.film.width);
+        let backdrop = shade::backdrop(&task.film, column as f64 + 0.5, row as f64 + 0.5);
+        let Some(hit) = hit else { return backdrop.map(|c| c as f32) };
+        let touching = self.frame.verdict[index] == Frame::verdict_code(Verdict::Unknown(Reason::Touching));
+        let Hit { point: position, normal, outside, floor, .. } = *hit;
+        let point = Point { position, normal, outside, floor, visible, touching };
+        let eye = task.film.camera.eye;
+        shade::shade(&point, task.light.center, eye, backdrop, task.scene.scale()).map(|c| c as f32)
+    }
+
+    /// Smooth edges: the mean colour of the grid of rays of each pixel that an edge crosses. The light of a ray's hit is
+    /// that of the nearest hit in the neighbourhood. Where no ray of the grid meets the thing that is known, or not
+    /// excluded, to be there, it shows all the same.
+    pub(super) fn shade_edges(&mut self, task: &Task) {
+        let mut colors = Vec::with_capacity(self.edges.len());
+        for (&index, edge) in &self.edges {
+            let mut sum = [0.0_f32; 3];
+            for sub in edge {
+                let visible = sub.as_ref().map_or(1.0, |hit| self.light_near(task, index, hit));
+                let color = self.color(task, index, sub.as_ref(), visible);
+                (0..3).for_each(|c| sum[c] += color[c]);
+            }
+            let mut color = sum.map(|s| s / edge.len() as f32);
+            if edge.iter().all(Option::is_none)
+                && let Some(hit) = &self.hits[index]
+            {
+                let thin = self.color(task, index, Some(hit), self.light_near(task, index, hit));
+                let weight = if self.frame.coverage_lo[index] > 0.0 { 1.0 } else { THIN_WEIGHT };
+                (0..3).for_each(|c| color[c] += weight * (thin[c] - color[c]));
+            }
+            colors.push((index, color));
+        }
+        for (index, color) in colors {
+            self.frame.rgb[index] = color;
+        }
+    }
+
+    /// Visible fraction at the known hit nearest to `hit` among a pixel and its neighbours.
+    fn light_near(&self, task: &Task, index: usize, hit: &Hit) -> f64 {
+        let (width, height) = (task.film.width, task.film.height);
+        let (column, row) = (index % width, index / width);
+        let mut best = (f64::INFINITY, 1.0);
+        for y in row.saturating_sub(1)..=(row + 1).min(height - 1) {
+            for x in column.saturating_sub(1)..=(column + 1).min(width - 1) {
+                let at = y * width + x;
+                if let Some(other) = &self.hits[at]
+                    && other.floor == hit.floor
+                {
+                    let distance = (other.point - hit.point).length();
+                    if distance < best.0 {
+                        best = (distance, 0.5 * (self.frame.visible_lo[at] + self.frame.visible_hi[at]));
+                    }
+                }
+            }
+        }
+        best.1
+    }
+}
+
+/// How strongly a pixel shows something that may be there and that no ray of its grid meets.
+const THIN_WEIGHT: f32 = 0.35;

@@ -1,0 +1,65 @@
+//! What the passes of the renderer tell it about a pixel.
+use crate::geom::Vec3;
+use crate::shadow::Receiver;
+use crate::trace::Cost;
+use crate::verdict::Reason;
+use antumbra_interval::Interval;
+
+/// A point of a surface that a pixel shows.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Hit {
+    /// Enclosure of its parameter.
+    pub(super) t: Interval,
+    /// About where it is.
+    pub(super) point: Vec3,
+    /// Unit normal, turned to the viewer.
+    pub(super) normal: Vec3,
+    /// Whether the viewer is on the side where f > 0.
+    pub(super) outside: bool,
+    /// Whether it belongs to the floor.
+    pub(super) floor: bool,
+    /// The proved hit, where it is one.
+    pub(super) receiver: Option<Receiver>,
+}
+
+/// What is known of a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Known {
+    /// No ray of it meets a surface: proved.
+    Empty,
+    /// Its centre ray does: proved.
+    Hit,
+    /// Its centre ray does not, another one does: proved.
+    Partly,
+    /// Neither.
+    Undecided(Reason),
+}
+
+/// One pixel after the search for surfaces.
+#[derive(Clone, Debug)]
+pub(super) struct Pixel {
+    pub(super) index: usize,
+    pub(super) known: Known,
+    /// Bounds of the share of the pixel's rays that meet a surface.
+    pub(super) coverage: [f64; 2],
+    /// What it shows: where the centre ray hits, else where some other ray does.
+    pub(super) hit: Option<Hit>,
+    /// Where an edge runs through the pixel: what a grid of rays meets, for smooth edges.
+    pub(super) edge: Option<Vec<Option<Hit>>>,
+    pub(super) cost: Cost,
+}
+
+/// The light of one pixel.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Light {
+    pub(super) index: usize,
+    /// Bounds of the visible fraction.
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+    /// Why the bounds are further apart than asked for.
+    pub(super) reason: Option<Reason>,
+    /// The first beam over the whole light was not found free.
+    pub(super) first_occluded: bool,
+    pub(super) initial: Cost,
+    pub(super) sub: Cost,
+}

@@ -1,0 +1,93 @@
+//! One picture as the passes see it: everything that does not change while it is drawn.
+use super::pixel::Hit;
+use super::spec::{Method, RenderSpec};
+use crate::eval::{Inclusion, Workspace};
+use crate::geom::{Beam, Film, Rect, Vec3};
+use crate::paper::Settings;
+use crate::scene::{Object, Scene};
+use crate::shadow::Tolerance;
+use crate::trace::{Sign, Surface};
+use antumbra_interval::Interval;
+use std::sync::Arc;
+
+/// Scene, film and light of one picture.
+pub(super) struct Task {
+    pub(super) scene: Arc<Scene>,
+    /// The scene's objects; the floor, if it is wanted, is the last.
+    pub(super) objects: Vec<Object>,
+    pub(super) has_floor: bool,
+    pub(super) film: Film,
+    pub(super) light: Rect,
+    pub(super) settings: Settings,
+    pub(super) tolerance: Tolerance,
+    pub(super) method: Method,
+}
+
+impl Task {
+    pub(super) fn new(scene: Arc<Scene>, spec: &RenderSpec) -> Self {
+        let (width, height) = (spec.width, spec.height);
+        let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
+        let mut objects = scene.objects.clone();
+        let floor = spec.floor.then(|| scene.floor().ok()).flatten();
+        let has_floor = floor.is_some();
+        objects.extend(floor);
+        let settings = Settings {
+            sub_beams: spec.sub_beams,
+            offset: spec.offset.unwrap_or(RenderSpec::OFFSET * scene.scale()),
+            bisection: spec.bisection,
+            seed: spec.seed,
+        };
+        let tolerance = Tolerance { width: spec.tolerance, rectangles: spec.rectangles };
+        let light = scene.light.scaled(spec.light_scale);
+        Self { scene, objects, has_floor, film, light, settings, tolerance, method: spec.method }
+    }
+
+    /// The objects as surfaces.
+    pub(super) fn surfaces(&self) -> Vec<Surface<'_>> {
+        self.objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip }).collect()
+    }
+
+    /// Index of the floor among the objects.
+    pub(super) fn floor_index(&self) -> Option<usize> {
+        self.has_floor.then(|| self.objects.len() - 1)
+    }
+
+    /// A hit on an object: where, and how the surface lies there. `before` is the sign of f just before it, if known.
+    /// Nothing here is certified but the interval.
+    pub(super) fn hit(
+        &self,
+        object: usize,
+        beam: &Beam,
+        t: Interval,
+        before: Option<Sign>,
+        work: &mut Workspace,
+    ) -> Hit {
+        // A floor seen along its plane has no far end; take the near one.
+        let at = if t.hi().is_finite() { t } else { Interval::point(t.lo()) };
+        let mut point = beam.at(at).mid();
+        let floor = Some(object) == self.floor_index();
+        if floor {
+            point.0[2] = self.scene.floor_height;
+        }
+        let view = beam.direction.mid().normalized();
+        let (normal, outside) = oriented_normal(self.objects[object].surface.as_ref(), point, view, before, work);
+        Hit { t, point, normal, outside, floor, receiver: None }
+    }
+}
+
+/// The unit normal towards the viewer, and whether he is on the side where f > 0.
+fn oriented_normal(
+    f: &dyn Inclusion,
+    point: Vec3,
+    view: Vec3,
+    before: Option<Sign>,
+    work: &mut Workspace,
+) -> (Vec3, bool) {
+    let gradient = f.gradient(&point.to_box(), work);
+    let normal = Vec3(gradient.partials.map(|d| if d.is_empty() { 0.0 } else { d.mid() })).normalized();
+    // No gradient (a singular point): the surface faces the viewer.
+    let normal = if normal == Vec3::default() { -view } else { normal };
+    let towards = normal.dot(view) < 0.0;
+    let outside = before.map_or(towards, |sign| sign == Sign::Positive);
+    (if towards { normal } else { -normal }, outside)
+}
