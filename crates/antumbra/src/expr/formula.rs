@@ -1,7 +1,7 @@
 //! The formula as a value: a graph and its root.
 use super::{
-    Axis, Binary, Derivative, Error, ErrorKind, Graph, MAX_SOURCE, Node, NodeId, Surface, derivative::derivative,
-    lower::lower, print, statement, surface::zero_set,
+    Axis, Binary, Derivative, Error, ErrorKind, Graph, MAX_SOURCE, Node, NodeId, Surface, Unary,
+    derivative::derivative, lower::lower, print, statement, surface::zero_set,
 };
 use num_traits::Zero;
 use std::{fmt, ops::Range};
@@ -84,6 +84,24 @@ impl Formula {
     #[must_use]
     pub fn simplify(&self) -> Self {
         self.rebuilt(true).compacted()
+    }
+
+    /// The same function with `g^4`, `g^8`, `g^16` as repeated squares: these are shared with other powers of g, and their
+    /// enclosures are cheap. Done last, before compiling; the simplifier would turn squares back into powers.
+    #[must_use]
+    pub fn repeated_squares(&self) -> Self {
+        let mut graph = Graph::new(false);
+        let used = self.graph.reachable(self.root);
+        let mut place = vec![NodeId(0); used.len()];
+        for i in (0..used.len()).filter(|&i| used[i]) {
+            place[i] = match self.graph.node(NodeId(i as u32)) {
+                Node::Powi(a, n @ (4 | 8 | 16)) => {
+                    (0..n.ilog2()).fold(place[a.index()], |square, _| graph.unary(Unary::Sqr, square))
+                }
+                _ => graph.copy(&self.graph, NodeId(i as u32), |id| place[id.index()]),
+            };
+        }
+        Self { root: place[self.root.index()], graph }
     }
 
     /// Without operations that the root does not use.

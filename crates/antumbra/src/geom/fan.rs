@@ -1,5 +1,5 @@
 //! Fans of rays in affine form: camera frusta and shadow beams.
-use super::{Box3, Clip, Passage, Rect, Vec3, camera::Film};
+use super::{Box3, Rect, Vec3, camera::Film};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Slope};
 use std::ops::Range;
@@ -56,12 +56,6 @@ impl Fan {
     pub fn box_at(&self, t: Interval) -> Box3 {
         Box3(self.at(t).map(|x| x.range()))
     }
-
-    /// Where the rays are inside a region.
-    #[must_use]
-    pub fn passage(&self, clip: &Clip) -> Passage {
-        clip.passage(&self.apex, &self.directions())
-    }
 }
 
 impl Film {
@@ -107,7 +101,11 @@ mod tests {
 
     #[test]
     fn a_fan_reaches_its_light_at_one() {
-        let light = Rect { center: Vec3::new(0.0, 0.3, 2.0), edge_u: Vec3::new(0.5, 0.1, 0.0), edge_v: Vec3::new(0.0, 0.2, 0.4) };
+        let light = Rect {
+            center: Vec3::new(0.0, 0.3, 2.0),
+            edge_u: Vec3::new(0.5, 0.1, 0.0),
+            edge_v: Vec3::new(0.0, 0.2, 0.4),
+        };
         let (u, v) = (Interval::new(-1.0, 0.5), Interval::new(0.25, 1.0));
         let apex = Vec3::new(0.1, -0.2, 0.3).to_box();
         let fan = Fan::towards(apex, &light, u, v);

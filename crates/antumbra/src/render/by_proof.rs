@@ -4,14 +4,16 @@ use super::task::Task;
 use crate::eval::Workspace;
 use crate::geom::Beam;
 use crate::shadow::{self, Receiver, Shaft, ShaftVerdict, shaft, visible, whole_beam};
-use crate::trace::{self, Cost, Known as Open, Meeting, Piece, Surface, first_meeting, narrow};
+use crate::trace::{self, Cost, Effort, Known as Open, Meeting, Piece, Surface, first_meeting, narrow};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
 
 /// Side of the blocks that both passes start with: a power of two.
 pub(super) const BLOCK: usize = 32;
+/// Blocks up to this side whose frustum is covered by one simple piece are not divided further.
+const SIMPLE: usize = 4;
 /// A pixel that an edge crosses is divided this often, for the bounds of its coverage.
-const COVERAGE_LEVELS: u32 = 3;
+const COVERAGE_LEVELS: u32 = 2;
 /// Rays along each side of such a pixel, for its colour.
 const EDGE_RAYS: usize = 4;
 
@@ -44,8 +46,13 @@ pub(super) fn primary(task: &Task, column: usize, row: usize) -> Vec<Pixel> {
         let (column, row, side) = block;
         let fan = pass.fan(block);
         let open = narrow(&pass.surfaces, &fan, &parent, &mut pass.stack, &mut pass.work, &mut owed);
-        if side == 1 {
-            out.push(pass.pixel(column, row, &open, std::mem::take(&mut owed)));
+        // Small, covered and simple: straight to the rays.
+        let simple = side <= SIMPLE && open.certainly_covered() && open.open.len() == 1;
+        if side == 1 || simple {
+            for index in indices(task, block) {
+                let (column, row) = (index % task.film.width, index / task.film.width);
+                out.push(pass.pixel(column, row, &open, std::mem::take(&mut owed)));
+            }
             continue;
         }
         if open.certainly_empty() {
@@ -86,7 +93,7 @@ impl Primary<'_> {
             return Pixel { index, known: Known::Empty, coverage: [0.0; 2], hit: None, edge: None, cost };
         }
         let ray = self.task.film.ray(column, row);
-        let centre = self.meet(&ray, open, &mut cost);
+        let centre = self.meet(&ray, open, Effort::FINE, &mut cost);
         let mut hit = centre.map(|m| self.hit(&ray, &m));
         let mut known = match centre {
             Some(Meeting { reason: None, .. }) => Known::Hit,
@@ -99,20 +106,20 @@ impl Primary<'_> {
         }
         // An edge, or something thin: how much of the pixel is covered, and by what?
         let window = self.task.film.window(column..column + 1, row..row + 1);
-        let coverage =
-            if covered { [1.0; 2] } else { self.coverage(window, open, COVERAGE_LEVELS, &mut cost) };
+        let coverage = if covered { [1.0; 2] } else { self.coverage(window, open, COVERAGE_LEVELS, &mut cost) };
         if coverage[1] == 0.0 {
             return Pixel { index, known: Known::Empty, coverage, hit: None, edge: None, cost };
         }
         let mut edge = Vec::with_capacity(EDGE_RAYS * EDGE_RAYS);
         for k in 0..EDGE_RAYS * EDGE_RAYS {
             let ray = self.task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS);
-            let meeting = self.meet(&ray, open, &mut cost);
-            let sub = meeting.map(|m| self.hit(&ray, &m));
-            if let (None, Some(Meeting { reason: None, .. })) = (hit, meeting) {
-                (known, hit) = (Known::Partly, sub);
+            let meeting = self.meet(&ray, open, Effort::COARSE, &mut cost);
+            edge.push(meeting.map(|m| self.hit(&ray, &m)));
+            if let (None, Some(Meeting { reason: None, .. })) = (hit, meeting)
+                && let Some(m @ Meeting { reason: None, .. }) = self.meet(&ray, open, Effort::FINE, &mut cost)
+            {
+                (known, hit) = (Known::Partly, Some(self.hit(&ray, &m)));
             }
-            edge.push(sub);
         }
         // Something may be there that no ray of the grid meets: it must not vanish.
         if hit.is_none()
@@ -124,8 +131,8 @@ impl Primary<'_> {
         Pixel { index, known, coverage, hit, edge: Some(edge), cost }
     }
 
-    fn meet(&mut self, ray: &Beam, open: &Open, cost: &mut Cost) -> Option<Meeting> {
-        first_meeting(&self.surfaces, ray, &open.open, &mut self.rays, &mut self.work, cost)
+    fn meet(&mut self, ray: &Beam, open: &Open, effort: Effort, cost: &mut Cost) -> Option<Meeting> {
+        first_meeting(&self.surfaces, ray, &open.open, effort, &mut self.rays, &mut self.work, cost)
     }
 
     fn hit(&mut self, ray: &Beam, m: &Meeting) -> Hit {
@@ -194,14 +201,20 @@ pub(super) fn shadows<'a>(
                 && (side <= 4 || !fit.rough())
             {
                 let mut open = Vec::new();
-                let found =
-                    shaft(&surfaces, &fit, &task.light, &pieces, &mut open, &mut stack, &mut work, &mut owed);
+                let found = shaft(&surfaces, &fit, &task.light, &pieces, &mut open, &mut stack, &mut work, &mut owed);
                 if found != ShaftVerdict::Open {
                     let visible = f64::from(u8::from(found == ShaftVerdict::Lit));
                     for (index, _) in hits {
                         let initial = std::mem::take(&mut owed);
                         let first_occluded = found == ShaftVerdict::Dark;
-                        out.push(Light { index, lo: visible, hi: visible, first_occluded, initial, ..Light::default() });
+                        out.push(Light {
+                            index,
+                            lo: visible,
+                            hi: visible,
+                            first_occluded,
+                            initial,
+                            ..Light::default()
+                        });
                     }
                     continue;
                 }
@@ -217,16 +230,8 @@ pub(super) fn shadows<'a>(
         }
         for (index, receiver) in hits {
             let mut cost = Cost::default();
-            let bracket = visible(
-                &surfaces,
-                receiver,
-                &task.light,
-                &pieces,
-                task.tolerance,
-                &mut scratch,
-                &mut work,
-                &mut cost,
-            );
+            let bracket =
+                visible(&surfaces, receiver, &task.light, &pieces, task.tolerance, &mut scratch, &mut work, &mut cost);
             out.push(Light {
                 index,
                 lo: bracket.lo,

@@ -198,8 +198,7 @@ impl Renderer {
                         by_proof::shadows(&this.task, column, row, &receiver)
                     }
                     Method::Paper(method) => {
-                        let hits =
-                            this.pixels(tile).filter_map(|index| Some((index, this.book.hit(index)?.point)));
+                        let hits = this.pixels(tile).filter_map(|index| Some((index, this.book.hit(index)?.point)));
                         by_paper::shadows(&this.task, &this.grids, method, hits)
                     }
                 })

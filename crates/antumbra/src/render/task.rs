@@ -44,7 +44,7 @@ impl Task {
 
     /// The objects as surfaces.
     pub(super) fn surfaces(&self) -> Vec<Surface<'_>> {
-        self.objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip }).collect()
+        self.objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip, region: o.region }).collect()
     }
 
     /// Index of the floor among the objects.

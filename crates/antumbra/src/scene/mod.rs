@@ -7,8 +7,8 @@ pub use framing::{Extent, extent};
 pub use object::{Error, Object};
 pub use presets::{PRESETS, Preset, preset};
 
-use antumbra_interval::Interval;
 use crate::geom::{Box3, Camera, Clip, Rect, Vec3};
+use antumbra_interval::Interval;
 
 /// A scene, complete and valid.
 #[derive(Clone, Debug)]
@@ -55,6 +55,7 @@ impl Scene {
         let mut object = Object::parse(text, Clip::Everywhere)?;
         let found = extent(object.surface.as_ref());
         object.clip = Clip::Box(found.clip());
+        object.region = framing::region(object.surface.as_ref(), &object.clip);
         Ok(framing::scene(text.trim().to_owned(), "Formula".to_owned(), object))
     }
 

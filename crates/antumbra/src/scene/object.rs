@@ -14,6 +14,8 @@ pub struct Object {
     pub surface: Arc<dyn Inclusion>,
     /// The surface exists only in here, and ends at its border.
     pub clip: Clip,
+    /// Every zero of the function in here is inside the clip: larger than it if the clip cuts nothing away.
+    pub region: Clip,
 }
 
 impl std::fmt::Debug for Object {
@@ -40,7 +42,8 @@ impl Object {
     /// See [`Error`].
     pub fn parse(text: &str, clip: Clip) -> Result<Self, Error> {
         let formula = Formula::parse(text)?;
-        let tape = Tape::compile(formula.surface().formula())?;
-        Ok(Self { text: text.to_owned(), surface: Arc::new(tape), clip })
+        let tape = Tape::compile(&formula.surface().formula().repeated_squares())?;
+        let region = super::framing::region(&tape, &clip);
+        Ok(Self { text: text.to_owned(), surface: Arc::new(tape), clip, region })
     }
 }

@@ -36,7 +36,7 @@ pub(super) fn fronts(
         if index == receiver.surface {
             return Some(Front { sign: receiver.side, at: 0.0 });
         }
-        let passage = light.passage(&surface.clip);
+        let passage = surface.passage(&light.apex, &light.directions());
         if passage.inner.contains(0.0) {
             cost.evaluations += 1;
             return Sign::of(surface.function.range(&receiver.point, work)).map(|sign| Front { sign, at: 0.0 });

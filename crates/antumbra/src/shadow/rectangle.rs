@@ -3,7 +3,7 @@ use super::occluders::{Front, Receiver, hides};
 use super::policy::{halves, long, size, slope_pays};
 use crate::eval::Workspace;
 use crate::geom::halfplanes::{self, HalfPlane, shares};
-use crate::geom::{Fan, Rect};
+use crate::geom::{Fan, Passage, Rect};
 use crate::trace::{Cost, Piece, Sign, Surface};
 use antumbra_interval::Interval;
 use antumbra_interval::round::{add_up, sub_down, sub_up};
@@ -28,6 +28,8 @@ pub(super) enum Answer {
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     stack: Vec<Piece>,
+    /// One per surface.
+    passages: Vec<Passage>,
     planes: Vec<HalfPlane>,
     areas: halfplanes::Scratch,
 }
@@ -68,13 +70,15 @@ impl Query<'_> {
         let directions = fan.directions();
         let distance = (0..3).map(|k| directions[k].magnitude()).fold(0.0, f64::max);
         let (width, root) = (size(self.light, u, v), u.width() >= 2.0);
+        s.passages.clear();
+        s.passages.extend(self.surfaces.iter().map(|at| at.passage(&fan.apex, &directions)));
         s.planes.clear();
         s.stack.clear();
         s.stack.extend(open[pieces].iter().rev());
         let begin = open.len();
         while let Some(Piece { surface, t }) = s.stack.pop() {
             let at = &self.surfaces[surface];
-            let passage = fan.passage(&at.clip);
+            let passage = s.passages[surface];
             // Beyond the region, and beyond the light, nothing occludes.
             let t = t.intersection(passage.outer);
             if t.is_empty() {

@@ -2,7 +2,7 @@
 use super::occluders::{Receiver, fronts, hides};
 use super::policy::{halves, long_in_shaft, shaft_slope_pays, size};
 use crate::eval::Workspace;
-use crate::geom::{Box3, Fan, Rect};
+use crate::geom::{Box3, Fan, Passage, Rect};
 use crate::trace::{Cost, Piece, Sign, Surface};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Slope};
@@ -98,12 +98,13 @@ pub fn shaft(
     let directions = Box3(direction.map(|d| d.range()));
     let distance = (0..3).map(|k| directions[k].magnitude()).fold(0.0, f64::max);
     let width = size(light, unit, unit);
+    let passages: Vec<Passage> = surfaces.iter().map(|at| at.passage(&apex, &directions)).collect();
     open.clear();
     stack.clear();
     stack.extend(pieces.iter().rev());
     while let Some(Piece { surface, t }) = stack.pop() {
         let at = &surfaces[surface];
-        let passage = at.clip.passage(&apex, &directions);
+        let passage = passages[surface];
         let t = t.intersection(passage.outer);
         if t.is_empty() {
             continue;

@@ -117,8 +117,7 @@ pub fn visible(
                 Answer::Lit => (lit, lit_up) = (add_down(lit, area), add_up(lit_up, area)),
                 Answer::Open { lit, open } => {
                     let (lit, open) = (mul_down(area, lit), mul_up(area, open));
-                    let node =
-                        Node { unknown: sub_up(open, lit), part, pieces: (begin, arena.len()), lit, open };
+                    let node = Node { unknown: sub_up(open, lit), part, pieces: (begin, arena.len()), lit, open };
                     unknown = add_up(unknown, node.unknown);
                     heap.push(node);
                 }

@@ -22,8 +22,9 @@ impl Known {
     /// Nothing is known but where the surfaces are.
     #[must_use]
     pub fn nothing(surfaces: &[Surface<'_>], fan: &Fan) -> Self {
+        let directions = fan.directions();
         let open = surfaces.iter().enumerate().filter_map(|(surface, s)| {
-            let t = fan.passage(&s.clip).outer;
+            let t = s.passage(&fan.apex, &directions).outer;
             (!t.is_empty()).then_some(Piece { surface, t })
         });
         Self { open: open.collect(), cover: f64::INFINITY, front: vec![None; surfaces.len()] }
@@ -56,7 +57,7 @@ pub fn narrow(
     cost: &mut Cost,
 ) -> Known {
     cost.beams += 1;
-    let shape = Shape::of(fan);
+    let (shape, directions) = (Shape::of(fan), fan.directions());
     let mut known = Known { open: Vec::new(), cover: parent.cover, front: parent.front.clone() };
     let mut next = 0;
     while next < parent.open.len() {
@@ -64,8 +65,8 @@ pub fn narrow(
         let end = next + parent.open[next..].iter().take_while(|p| p.surface == surface).count();
         let pieces = &parent.open[next..end];
         next = end;
-        let Surface { function, clip } = surfaces[surface];
-        let passage = fan.passage(&clip);
+        let function = surfaces[surface].function;
+        let passage = surfaces[surface].passage(&fan.apex, &directions);
         let first_open = known.open.len();
         stack.clear();
         stack.extend(pieces.iter().rev().map(|p| p.t));

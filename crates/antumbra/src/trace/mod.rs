@@ -15,6 +15,7 @@ mod ray;
 pub use bisection::{Bisection, first_section};
 pub use frustum::{Known, narrow};
 pub use piece::{Piece, Sign, Surface, certainly_continuous};
+pub use policy::Effort;
 pub use ray::{Meeting, Scratch, first_meeting};
 
 use crate::eval::{Inclusion, Workspace};

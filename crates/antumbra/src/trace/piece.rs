@@ -1,6 +1,6 @@
 //! Surfaces as the certified search sees them, and pieces of beams that are still open.
 use crate::eval::{Inclusion, Workspace};
-use crate::geom::{Box3, Clip};
+use crate::geom::{Box3, Clip, Passage};
 use antumbra_interval::Interval;
 
 /// A surface `{f = 0}` inside a region.
@@ -8,8 +8,22 @@ use antumbra_interval::Interval;
 pub struct Surface<'a> {
     /// The function.
     pub function: &'a dyn Inclusion,
-    /// Where the surface exists.
+    /// Outside of this there is no surface.
     pub clip: Clip,
+    /// Every zero in here is on the surface. Contains the clip; larger if the clip cuts nothing away.
+    pub region: Clip,
+}
+
+impl Surface<'_> {
+    /// Where on the rays `P + t D` the surface can be (outer), and where a zero is one of its points (inner).
+    #[must_use]
+    pub fn passage(&self, apex: &Box3, direction: &Box3) -> Passage {
+        let clip = self.clip.passage(apex, direction);
+        if self.region == self.clip {
+            return clip;
+        }
+        Passage { outer: clip.outer, inner: self.region.passage(apex, direction).inner }
+    }
 }
 
 /// A piece of a beam, parameters `t`, in which a surface may be met: everything else is settled.

@@ -42,14 +42,29 @@ pub(super) fn cut(t: Interval) -> [Interval; 2] {
     [Interval::new(t.lo(), at), Interval::new(at, t.hi())]
 }
 
-/// Whether a piece of a ray is too short to go on: 2^-37 of its distance, about what cancellation leaves of a double
-/// root.
-pub(super) fn tiny(t: Interval) -> bool {
-    t.hi() - t.lo() <= 7.3e-12 * t.hi().abs()
+/// How far a ray search goes; all lengths are relative to the distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Effort {
+    /// Pieces shorter than this are given up: f touches 0, or nearly.
+    shortest: f64,
+    /// An enclosed root thinner than this is thin enough.
+    root: f64,
 }
 
-/// Whether interval Newton has stopped to pay.
-pub(super) fn thin(t: Interval, before: Interval) -> bool {
+impl Effort {
+    /// For hits from which shadows start. About 2^-37 is what cancellation leaves of a double root.
+    pub const FINE: Self = Self { shortest: 7.3e-12, root: 1e-14 };
+    /// For colours.
+    pub const COARSE: Self = Self { shortest: 1e-5, root: 1e-4 };
+}
+
+/// Whether a piece of a ray is too short to go on.
+pub(super) fn tiny(t: Interval, effort: Effort) -> bool {
+    t.hi() - t.lo() <= effort.shortest * t.hi().abs()
+}
+
+/// Whether a root is enclosed well enough, or interval Newton has stopped to pay.
+pub(super) fn thin(t: Interval, before: Interval, effort: Effort) -> bool {
     let (width, old) = (t.hi() - t.lo(), before.hi() - before.lo());
-    width <= 1e-15 * t.hi().abs() || (width > 0.5 * old && width <= 1e-12 * t.hi().abs())
+    width <= effort.root * t.hi().abs() || (width > 0.5 * old && width <= 1e-12 * t.hi().abs())
 }

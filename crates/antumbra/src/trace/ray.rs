@@ -1,6 +1,6 @@
 //! The first root along one ray, certified.
 use super::piece::certainly_continuous;
-use super::policy::{cut, thin, tiny};
+use super::policy::{Effort, cut, thin, tiny};
 use super::{Cost, Piece, Sign, Surface};
 use crate::eval::Workspace;
 use crate::geom::Beam;
@@ -36,6 +36,7 @@ pub fn first_meeting(
     surfaces: &[Surface<'_>],
     ray: &Beam,
     open: &[Piece],
+    effort: Effort,
     scratch: &mut Scratch,
     work: &mut Workspace,
     cost: &mut Cost,
@@ -48,7 +49,7 @@ pub fn first_meeting(
         let pieces = &open[next..end];
         next = end;
         let before = best.map_or(f64::INFINITY, |b| b.t.lo());
-        let found = first_of_surface(surface, &surfaces[surface], ray, pieces, before, scratch, work, cost);
+        let found = first_of_surface(surface, &surfaces[surface], ray, pieces, before, effort, scratch, work, cost);
         // Two surfaces whose enclosures overlap: the earlier bound wins, and the order is not proved.
         best = match (best, found) {
             (Some(a), Some(b)) => {
@@ -69,12 +70,13 @@ fn first_of_surface(
     ray: &Beam,
     pieces: &[Piece],
     until: f64,
+    effort: Effort,
     scratch: &mut Scratch,
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Option<Meeting> {
     let f = of.function;
-    let passage = of.clip.passage(&ray.origin.to_box(), &ray.direction);
+    let passage = of.passage(&ray.origin.to_box(), &ray.direction);
     let direction: [Affine<1>; 3] = ray.direction.0.map(Affine::constant);
     scratch.stack.clear();
     scratch.stack.extend(pieces.iter().rev().map(|p| p.t));
@@ -108,7 +110,7 @@ fn first_of_surface(
                     continue;
                 }
                 (Some(a), Some(_)) => {
-                    let t = newton(of, ray, t, derivative, work, cost);
+                    let t = newton(of, ray, t, derivative, effort, work, cost);
                     // The root must lie where the surface exists.
                     let inside = t.intersection(passage.inner) == t;
                     let reason = (!inside).then_some(Reason::Resolution);
@@ -117,9 +119,8 @@ fn first_of_surface(
                 _ => {}
             }
         }
-        if tiny(t) {
-            let reason =
-                if certainly_continuous(f, &ray.at(t), work) { Reason::Touching } else { Reason::Domain };
+        if tiny(t, effort) {
+            let reason = if certainly_continuous(f, &ray.at(t), work) { Reason::Touching } else { Reason::Domain };
             return Some(Meeting { surface, t, before, reason: Some(reason) });
         }
         let [near, far] = cut(t);
@@ -135,11 +136,15 @@ fn newton(
     ray: &Beam,
     mut t: Interval,
     derivative: Interval,
+    effort: Effort,
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Interval {
     let f = of.function;
     let mut slope = derivative;
+    if thin(t, t, effort) {
+        return t;
+    }
     for _ in 0..40 {
         let middle = Interval::point(t.mid());
         cost.evaluations += 1;
@@ -151,7 +156,7 @@ fn newton(
         }
         let old = t;
         t = narrower;
-        if thin(t, old) {
+        if thin(t, old, effort) {
             break;
         }
         let direction: [Affine<1>; 3] = ray.direction.0.map(Affine::constant);
