@@ -3,6 +3,7 @@
 //! *What* to draw is a [`RenderSpec`], *how* to run a [`RunSpec`]. A [`Renderer`] is asked to `refine` for a while, and
 //! shows its `frame` and `stats` at any time: command line, viewer, web page and Python use nothing else.
 mod frame;
+mod planes;
 mod renderer;
 mod shade;
 mod spec;

@@ -28,6 +28,7 @@ pub struct Renderer {
     pool: rayon::ThreadPool,
     grids: Vec<Grid>,
     hits: Vec<Option<Hit>>,
+    occluded: Vec<bool>,
     frame: Frame,
     stage: Stage,
     next_tile: usize,
@@ -81,8 +82,9 @@ impl Renderer {
         };
         let light = scene.light.scaled(spec.light_scale);
         let hits = vec![None; width * height];
+        let occluded = vec![false; width * height];
         let (grids, stage, next_tile) = (Vec::new(), Stage::Grid, 0);
-        Ok(Self { scene, spec, film, light, settings, pool, grids, hits, frame, stage, next_tile, stats })
+        Ok(Self { scene, spec, film, light, settings, pool, grids, hits, occluded, frame, stage, next_tile, stats })
     }
 
     /// Continues where it was with another method of shadows: same scene, same hits. What the hits cost stays in the
@@ -145,6 +147,12 @@ impl Renderer {
     #[must_use]
     pub fn frame(&self) -> &Frame {
         &self.frame
+    }
+
+    /// Pixels whose initial shadow beam may be blocked (the paper's case 2), in the order of the frame's planes.
+    #[must_use]
+    pub fn initial_occluded(&self) -> &[bool] {
+        &self.occluded
     }
 
     /// Counters and times so far.
@@ -305,6 +313,7 @@ impl Renderer {
         };
         *class += 1;
         s.in_shadow_facing += u64::from(visible < 1.0 && self.frame.facing[pixel] > 0.0);
+        self.occluded[pixel] = shadow.initial_occluded;
         s.initial_occluded += u64::from(shadow.initial_occluded);
         s.initial_beams += shadow.initial.beams;
         s.beams += shadow.sub.beams;
