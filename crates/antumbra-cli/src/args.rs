@@ -2,10 +2,13 @@
 
 use std::path::PathBuf;
 
-use clap::{Parser, Subcommand, ValueEnum};
+use antumbra::{
+    render::{Method, RenderSpec},
+    report::Exhibit,
+};
+use clap::{Parser, Subcommand};
 
 use crate::{
-    engine::render::Method,
     failure::EXIT_CODES,
     values::{self, Size},
 };
@@ -59,7 +62,7 @@ pub(crate) struct RenderArgs {
     pub(crate) bits: String,
 
     /// How light and surface are found (`antumbra info` lists the methods)
-    #[arg(long, value_name = "METHOD", default_value = Method::DEFAULT.name(), value_parser = values::method)]
+    #[arg(long, value_name = "METHOD", default_value = RenderSpec::default().method.name(), value_parser = values::method)]
     pub(crate) method: Method,
 
     #[command(flatten)]
@@ -111,7 +114,7 @@ pub(crate) struct SpecArgs {
     #[arg(long, value_name = "N", default_value = "7", value_parser = values::sub_beams, allow_negative_numbers = true)]
     pub(crate) sub_beams: usize,
 
-    /// Distance by which the paper's shadow beams start off the surface [default: chosen by the method]
+    /// Distance by which the paper's shadow beams start off the surface [default: a fraction of the size of the scene]
     #[arg(long, value_name = "E", value_parser = values::offset, allow_negative_numbers = true)]
     pub(crate) offset: Option<f64>,
 
@@ -157,35 +160,27 @@ pub(crate) struct CompareArgs {
     pub(crate) quiet: bool,
 }
 
-/// The tables and figures of the paper that can be reproduced.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(crate) enum Exhibit {
-    /// Beams and times of the four surfaces, our columns beside the paper's
-    Table1,
-    /// Rays miss what beams find
-    Fig1,
-    /// Rays against beams on a thin sheet
-    Fig5,
-    /// The four surfaces with their soft shadows
-    Fig6,
-    /// First beam occluded in blue, truly in shadow in red
-    Fig7,
-}
-
 const PAPER_EXAMPLES: &str = "\
 Examples:
   antumbra paper table1
+  antumbra paper offsets --size 128
   antumbra paper fig6 -o figures --size 256";
+
+/// One line for each exhibit, from the heart's list.
+fn exhibits() -> String {
+    let lines = Exhibit::ALL.iter().map(|(_, name, about)| format!("  {name:<10} {about}"));
+    format!("Exhibits:\n{}\n\n", lines.collect::<Vec<_>>().join("\n"))
+}
 
 /// Reproduce a table or a figure of the paper behind the method `paper`.
 ///
-/// A table goes to standard output; pictures go to DIR (default: the current folder). With `-o` the text is also
-/// written there, as Markdown.
+/// Tables go to standard output, pictures to DIR (default: the current folder). With `-o` the text is also written
+/// there, as Markdown.
 #[derive(Debug, clap::Args)]
-#[command(after_help = format!("{PAPER_EXAMPLES}\n\n{EXIT_CODES}"))]
+#[command(after_help = format!("{}{PAPER_EXAMPLES}\n\n{EXIT_CODES}", exhibits()))]
 pub(crate) struct PaperArgs {
     /// What to reproduce
-    #[arg(value_enum)]
+    #[arg(value_name = "EXHIBIT", value_parser = values::exhibit)]
     pub(crate) exhibit: Exhibit,
 
     /// Folder for the files; made if its parent exists

@@ -5,7 +5,6 @@
 
 mod args;
 mod commands;
-mod engine;
 mod failure;
 mod interrupt;
 mod options;

@@ -3,18 +3,20 @@
 use std::{
     io::Read,
     path::{Path, PathBuf},
+    sync::Arc,
     thread,
 };
 
-use antumbra::image::Depth;
+use antumbra::{
+    image::Depth,
+    render::{Method, RenderSpec, RunSpec},
+    report::Exhibit,
+    scene::{self, PRESETS, Scene},
+};
 use anyhow::{Result, anyhow};
 
 use crate::{
-    args::{CompareArgs, Exhibit, PaperArgs, RenderArgs, SpecArgs},
-    engine::{
-        render::{Method, RenderSpec, RunSpec},
-        scene::{self, Scene},
-    },
+    args::{CompareArgs, PaperArgs, RenderArgs, SpecArgs},
     failure::Usage,
     values,
 };
@@ -29,7 +31,7 @@ pub(crate) struct NamedScene {
     pub(crate) name: String,
     /// A name that can be part of a file name.
     pub(crate) stem: String,
-    pub(crate) scene: Scene,
+    pub(crate) scene: Arc<Scene>,
 }
 
 /// Where JSON goes.
@@ -63,8 +65,10 @@ pub(crate) struct RenderOptions {
 #[derive(Debug)]
 pub(crate) struct CompareOptions {
     pub(crate) scene: NamedScene,
-    /// One for each method, equal but for the method.
-    pub(crate) specs: Vec<RenderSpec>,
+    /// What to draw, by the first of the methods.
+    pub(crate) spec: RenderSpec,
+    /// At least one, none of them twice.
+    pub(crate) methods: Vec<Method>,
     pub(crate) run: RunSpec,
     pub(crate) json: Option<JsonTarget>,
     pub(crate) quiet: bool,
@@ -106,18 +110,20 @@ impl CompareOptions {
                 return Err(Usage(format!("method `{}` is named twice", method.name())).into());
             }
         }
-        let (spec, run) = specs(args.spec, Method::DEFAULT);
-        let specs = args.methods.iter().map(|&method| RenderSpec { method, ..spec.clone() }).collect();
+        let Some(&first) = args.methods.first() else {
+            return Err(Usage("--methods needs at least one method".to_owned()).into());
+        };
+        let (spec, run) = specs(args.spec, first);
         let scene = find_scene(&args.scene)?;
-        Ok(Self { scene, specs, run, json: args.json.map(json_target), quiet: args.quiet })
+        Ok(Self { scene, spec, methods: args.methods, run, json: args.json.map(json_target), quiet: args.quiet })
     }
 }
 
 impl PaperOptions {
     /// Pictures need a folder, the current one by default; a table needs none.
     pub(crate) fn new(args: PaperArgs) -> Self {
-        let (spec, run) = specs(args.spec, Method::Paper);
-        let folder = args.output.or((args.exhibit != Exhibit::Table1).then(|| PathBuf::from(".")));
+        let (spec, run) = specs(args.spec, RenderSpec::default().method);
+        let folder = args.output.or(args.exhibit.has_pictures().then(|| PathBuf::from(".")));
         Self { exhibit: args.exhibit, spec, run, folder, quiet: args.quiet }
     }
 }
@@ -138,6 +144,7 @@ fn specs(args: SpecArgs, method: Method) -> (RenderSpec, RunSpec) {
         sub_beams: args.sub_beams,
         offset: args.offset,
         seed: args.seed,
+        ..RenderSpec::default()
     };
     (spec, RunSpec { threads: args.threads })
 }
@@ -174,14 +181,26 @@ fn find_scene(text: &str) -> Result<NamedScene> {
         return from_formula(formula.trim_end());
     }
     if let Some(scene) = scene::preset(text) {
+        let scene = Arc::new(scene.map_err(|e| Usage(explain(&e, text)))?);
         return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene });
     }
     from_formula(text).map_err(|error| if looks_like_a_name(text) { no_preset(text) } else { error })
 }
 
 fn from_formula(text: &str) -> Result<NamedScene> {
-    let scene = scene::from_formula(text).map_err(|e| Usage(e.render()))?;
+    let scene = Arc::new(Scene::from_formula(text).map_err(|e| Usage(explain(&e, text)))?);
     Ok(NamedScene { name: text.to_owned(), stem: "antumbra".to_owned(), scene })
+}
+
+/// A formula's error with the place in its text, under the word `error: ` that `main` writes.
+fn explain(error: &scene::Error, text: &str) -> String {
+    match error {
+        scene::Error::Formula(error) => {
+            let message = error.render(text);
+            message.strip_prefix("error: ").unwrap_or(&message).to_owned()
+        }
+        scene::Error::Tape(_) => error.to_string(),
+    }
 }
 
 fn looks_like_a_name(text: &str) -> bool {
@@ -190,7 +209,7 @@ fn looks_like_a_name(text: &str) -> bool {
 }
 
 fn no_preset(text: &str) -> anyhow::Error {
-    let names = scene::preset_names();
+    let names: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
     let advice = match values::nearest(text, &names) {
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("the presets are {}; a formula in x, y, z will do too", names.join(", ")),

@@ -1,6 +1,6 @@
 //! Values of options, from text. Each function says what it accepts when it refuses.
 
-use crate::engine::render::Method;
+use antumbra::{render::Method, report::Exhibit};
 
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -78,12 +78,18 @@ pub(crate) fn offset(text: &str) -> Result<f64, String> {
 
 /// A method by its name.
 pub(crate) fn method(text: &str) -> Result<Method, String> {
-    if let Some(method) = Method::ALL.iter().find(|m| m.name() == text) {
-        return Ok(*method);
-    }
-    let names: Vec<&str> = Method::ALL.iter().map(|m| m.name()).collect();
-    let advice = nearest(text, &names).map(|name| format!("; did you mean `{name}`?")).unwrap_or_default();
-    Err(format!("the methods are {}{advice}", names.join(", ")))
+    Method::from_name(text).ok_or_else(|| choices("methods", text, &Method::ALL.map(|(_, name, _)| name)))
+}
+
+/// An exhibit by its name.
+pub(crate) fn exhibit(text: &str) -> Result<Exhibit, String> {
+    Exhibit::from_name(text).ok_or_else(|| choices("exhibits", text, &Exhibit::ALL.map(|(_, name, _)| name)))
+}
+
+/// What there is to choose from, and what was probably meant.
+fn choices(what: &str, text: &str, names: &[&str]) -> String {
+    let advice = nearest(text, names).map(|name| format!("; did you mean `{name}`?")).unwrap_or_default();
+    format!("the {what} are {}{advice}", names.join(", "))
 }
 
 /// The name that was probably meant, if one is near enough.
@@ -145,6 +151,7 @@ mod tests {
         assert_eq!(nearest("Chubs", &["chubs", "orthocircle"]), Some("chubs"));
         assert_eq!(nearest("teapot", &["chubs", "orthocircle"]), None);
         assert_eq!(nearest("x", &[]), None);
+        assert!(exhibit("fig8").expect_err("no such exhibit").contains("table1"));
         assert!(method("papr").expect_err("no such method").contains("did you mean `paper`?"));
     }
 }

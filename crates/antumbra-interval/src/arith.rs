@@ -17,6 +17,7 @@ impl Neg for Interval {
 
 impl Add for Interval {
     type Output = Self;
+    #[allow(clippy::suspicious_arithmetic_impl, reason = "`|` joins two tests without a branch")]
     #[inline]
     fn add(self, o: Self) -> Self {
         if self.is_empty() | o.is_empty() {
@@ -29,6 +30,7 @@ impl Add for Interval {
 
 impl Sub for Interval {
     type Output = Self;
+    #[allow(clippy::suspicious_arithmetic_impl, reason = "`|` joins two tests without a branch")]
     #[inline]
     fn sub(self, o: Self) -> Self {
         if self.is_empty() | o.is_empty() {

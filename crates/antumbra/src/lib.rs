@@ -8,6 +8,7 @@ pub mod grid;
 pub mod image;
 pub mod paper;
 pub mod render;
+pub mod report;
 pub mod scene;
 pub mod shadow;
 pub mod tape;

@@ -1,13 +1,15 @@
 //! `antumbra compare`: several methods on one scene, in one process.
 
+use std::sync::Arc;
+
+use antumbra::render::{Method, RenderSpec, Renderer, Stats};
 use anyhow::Result;
 use comfy_table::{CellAlignment, Table, presets::ASCII_MARKDOWN};
 use serde::Serialize;
 
 use super::{complete, json_sink, json_text, print_json};
 use crate::{
-    engine::render::Stats,
-    options::{CompareOptions, JsonTarget, thread_count},
+    options::{CompareOptions, JsonTarget},
     output::{finish, print, remark},
     progress::Progress,
 };
@@ -22,13 +24,21 @@ struct Comparison<'a> {
     methods: Vec<Row>,
 }
 
-/// What one method found and cost.
+/// What one method found and cost. The hits are found once, by the first method; `evaluations` and `seconds` are
+/// those of the shadows and the hits together, as if each method had found them.
 #[derive(Serialize)]
 struct Row {
     method: &'static str,
     hits: u64,
     beams: u64,
+    initial_beams: u64,
+    initial_occluded: u64,
+    lit: u64,
+    partly: u64,
+    dark: u64,
     evaluations: u64,
+    primary_evaluations: u64,
+    shadow_evaluations: u64,
     primary_seconds: f64,
     shadow_seconds: f64,
     seconds: f64,
@@ -40,7 +50,14 @@ impl Row {
             method,
             hits: stats.hits,
             beams: stats.beams,
+            initial_beams: stats.initial_beams,
+            initial_occluded: stats.initial_occluded,
+            lit: stats.lit,
+            partly: stats.partly,
+            dark: stats.dark,
             evaluations: stats.evaluations,
+            primary_evaluations: stats.primary_evaluations,
+            shadow_evaluations: stats.shadow_evaluations,
             primary_seconds: stats.primary_seconds,
             shadow_seconds: stats.shadow_seconds,
             seconds: stats.seconds,
@@ -51,15 +68,23 @@ impl Row {
 /// Runs the methods one after the other and prints the table.
 pub(super) fn run(options: &CompareOptions) -> Result<()> {
     let mut json = json_sink(options.json.as_ref())?;
+    // All methods start from the same hits: proved ones, if the certified method is among them (it needs them).
+    let mut order = options.methods.clone();
+    order.sort_by_key(|method| *method != Method::Certified);
+    let spec = RenderSpec { method: order[0], ..options.spec.clone() };
+    let mut renderer = Renderer::new(Arc::clone(&options.scene.scene), spec, options.run)?;
     let mut rows = vec![];
-    for spec in &options.specs {
-        let progress = Progress::new(options.quiet, spec.method.name());
-        let renderer = complete(&options.scene.scene, spec, &options.run, &progress)?;
-        rows.push(Row::new(spec.method.name(), &renderer.stats()));
+    for method in &order {
+        let progress = Progress::new(options.quiet, method.name());
+        // For the first method, which has not begun, this changes nothing.
+        renderer.restart_shadows(*method);
+        complete(&mut renderer, &progress);
+        rows.push(Row::new(method.name(), &renderer.stats()));
     }
+    rows.sort_by_key(|row| options.methods.iter().position(|method| method.name() == row.method));
     let table = table(&rows);
-    let size = options.specs.first().map_or([0, 0], |s| [s.width, s.height]);
-    let threads = thread_count(&options.run);
+    let size = [options.spec.width, options.spec.height];
+    let threads = renderer.stats().threads;
     let record = json_text(&Comparison { scene: &options.scene.name, size, threads, methods: rows })?;
     if let Some(mut sink) = json.take() {
         sink.fill(record.as_bytes())?;
@@ -81,8 +106,11 @@ fn table(rows: &[Row]) -> Table {
     table.load_style(ASCII_MARKDOWN).set_header([
         "method",
         "hits",
-        "beams",
-        "evaluations",
+        "lit",
+        "partly",
+        "dark",
+        "shadow beams",
+        "shadow evaluations",
         "primary s",
         "shadow s",
         "total s",
@@ -95,12 +123,15 @@ fn table(rows: &[Row]) -> Table {
         table.add_row([
             row.method.to_owned(),
             row.hits.to_string(),
-            row.beams.to_string(),
-            row.evaluations.to_string(),
+            row.lit.to_string(),
+            row.partly.to_string(),
+            row.dark.to_string(),
+            (row.initial_beams + row.beams).to_string(),
+            row.shadow_evaluations.to_string(),
             format!("{:.3}", row.primary_seconds),
             format!("{:.3}", row.shadow_seconds),
             format!("{:.3}", row.seconds),
-            ratio(first.evaluations as f64, row.evaluations as f64),
+            ratio(first.shadow_evaluations as f64, row.shadow_evaluations as f64),
             ratio(first.shadow_seconds, row.shadow_seconds),
             ratio(first.seconds, row.seconds),
         ]);
@@ -123,7 +154,9 @@ mod tests {
 
     fn row(method: &'static str, cost: u64) -> Row {
         let seconds = cost as f64 / 100.0;
-        Row { method, hits: 7, beams: cost, evaluations: cost, primary_seconds: 0.0, shadow_seconds: seconds, seconds }
+        let stats =
+            Stats { beams: cost, shadow_evaluations: cost, shadow_seconds: seconds, seconds, ..Stats::default() };
+        Row::new(method, &stats)
     }
 
     #[test]

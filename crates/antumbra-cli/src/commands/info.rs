@@ -1,27 +1,25 @@
 //! `antumbra info`: what this program and this machine offer.
 
+use antumbra::{
+    render::{Method, RenderSpec, RunSpec},
+    scene::PRESETS,
+};
 use anyhow::Result;
 
-use crate::{
-    engine::{
-        render::{Method, RunSpec},
-        scene,
-    },
-    options::thread_count,
-    output::print,
-};
+use crate::{options::thread_count, output::print};
 
 /// Prints version, processor, presets and methods.
 pub(super) fn run() -> Result<()> {
-    let methods: Vec<String> = Method::ALL.iter().map(|m| format!("  {:<15} {}", m.name(), m.summary())).collect();
+    let methods: Vec<String> = Method::ALL.iter().map(|(_, name, about)| format!("  {name:<15} {about}")).collect();
+    let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {:<15} {}", p.name, p.title)).collect();
     print(&format!(
-        "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:   {}\nmethods (default: {}):\n{}\n",
+        "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:\n{}\nmethods (default: {}):\n{}\n",
         env!("CARGO_PKG_VERSION"),
         std::env::consts::ARCH,
         processor_features(),
         thread_count(&RunSpec::default()),
-        scene::preset_names().join(", "),
-        Method::DEFAULT.name(),
+        presets.join("\n"),
+        RenderSpec::default().method.name(),
         methods.join("\n"),
     ))
 }

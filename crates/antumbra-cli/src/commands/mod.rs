@@ -7,16 +7,15 @@ mod render;
 
 use std::time::Duration;
 
-use antumbra::image::{COLOR_PLANE, Planes, exr_bytes, png_bytes};
+use antumbra::{
+    image::{COLOR_PLANE, Planes, exr_bytes, png_bytes},
+    render::Renderer,
+};
 use anyhow::Result;
 use serde::Serialize;
 
 use crate::{
     args::{Args, Command},
-    engine::{
-        render::{RenderSpec, Renderer, RunSpec},
-        scene::Scene,
-    },
     options::{CompareOptions, Format, JsonTarget, PaperOptions, RenderOptions},
     output::{self, Sink},
     progress::Progress,
@@ -39,12 +38,10 @@ pub(crate) fn run(args: Args) -> Result<()> {
 const SLICE: Duration = Duration::from_millis(100);
 
 /// Renders to the end under a progress bar.
-fn complete(scene: &Scene, spec: &RenderSpec, run: &RunSpec, progress: &Progress) -> Result<Renderer> {
-    let mut renderer = Renderer::new(scene.clone(), spec.clone(), run.clone())?;
+fn complete(renderer: &mut Renderer, progress: &Progress) {
     while !renderer.refine(SLICE) {
         progress.set(renderer.progress());
     }
-    Ok(renderer)
 }
 
 /// The bytes of a picture file.

@@ -1,14 +1,18 @@
 //! `antumbra render`: one scene, one picture.
 
-use antumbra::image::npy_bytes;
+use std::sync::Arc;
+
+use antumbra::{
+    image::npy_bytes,
+    render::{Renderer, Stats},
+};
 use anyhow::Result;
 use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::{complete, json_sink, json_text, picture_bytes, print_json};
 use crate::{
-    engine::render::Stats,
-    options::{RenderOptions, thread_count},
+    options::RenderOptions,
     output::{Folder, Sink, finish, remark},
     progress::Progress,
 };
@@ -20,10 +24,17 @@ struct Record<'a> {
     scene: &'a str,
     /// Width, height.
     size: [usize; 2],
-    method: &'static str,
-    threads: usize,
     #[serde(flatten)]
     stats: &'a Stats,
+    classes: Classes,
+}
+
+/// Hits by the light that reaches them.
+#[derive(Serialize)]
+struct Classes {
+    lit: u64,
+    partly: u64,
+    dark: u64,
 }
 
 /// Renders and writes: every path is tried before the work begins, every file appears after it has ended.
@@ -34,10 +45,11 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let mut json = json_sink(options.json.as_ref())?;
 
     let progress = Progress::new(options.quiet, options.spec.method.name());
-    let renderer = complete(&options.scene.scene, &options.spec, &options.run, &progress)?;
+    let mut renderer = Renderer::new(Arc::clone(&options.scene.scene), options.spec.clone(), options.run)?;
+    complete(&mut renderer, &progress);
     drop(progress);
 
-    let planes = renderer.frame()?.planes;
+    let planes = renderer.frame().planes()?;
     picture.fill(&picture_bytes(&planes, options.format)?)?;
     let mut sinks = vec![picture];
     if let Some(folder) = &folder {
@@ -52,9 +64,8 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         version: env!("CARGO_PKG_VERSION"),
         scene: &options.scene.name,
         size: [options.spec.width, options.spec.height],
-        method: options.spec.method.name(),
-        threads: thread_count(&options.run),
         stats: &stats,
+        classes: Classes { lit: stats.lit, partly: stats.partly, dark: stats.dark },
     })?;
     if let Some(mut sink) = json.take() {
         sink.fill(record.as_bytes())?;
@@ -72,14 +83,15 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
 fn summary(options: &RenderOptions, stats: &Stats) -> String {
     let spec = &options.spec;
     let share = 100.0 * stats.hits as f64 / (spec.width * spec.height) as f64;
-    let classes: Vec<String> = stats.classes.iter().map(|(name, n)| format!(", {} {name}", HumanCount(*n))).collect();
     let planes = options.planes.as_deref().map(|p| format!(" and {}/*.npy", p.display())).unwrap_or_default();
     format!(
-        "{} hits ({share:.2} %){}; {} beams, {} evaluations; {:.2} s ({:.2} primary, {:.2} shadow)\n\
+        "{} hits ({share:.2} %): {} lit, {} partly, {} dark; {} shadow beams, {} evaluations; {:.2} s ({:.2} primary, {:.2} shadow)\n\
          wrote {}{planes}: {}x{}, {}, threads: {}",
         HumanCount(stats.hits),
-        classes.concat(),
-        HumanCount(stats.beams),
+        HumanCount(stats.lit),
+        HumanCount(stats.partly),
+        HumanCount(stats.dark),
+        HumanCount(stats.initial_beams + stats.beams),
         HumanCount(stats.evaluations),
         stats.seconds,
         stats.primary_seconds,
@@ -88,6 +100,6 @@ fn summary(options: &RenderOptions, stats: &Stats) -> String {
         spec.width,
         spec.height,
         spec.method.name(),
-        thread_count(&options.run),
+        stats.threads,
     )
 }

@@ -7,6 +7,7 @@ mod by_paper;
 mod by_proof;
 mod frame;
 mod pixel;
+mod planes;
 mod renderer;
 mod shade;
 mod spec;

@@ -1,0 +1,58 @@
+//! A frame as named planes, ready for files.
+use super::Frame;
+use crate::image::{COLOR_PLANE, Error, Plane, Planes, Rounding, Samples};
+
+impl Frame {
+    /// All planes of the frame under their field names, row 0 at the top: `rgb` and `normal` of shape (rows, columns,
+    /// 3), the others of shape (rows, columns). A bound stays a bound where a file holds only `f32`: `t_lo` and
+    /// `visible_lo` are rounded down, `t_hi` and `visible_hi` up. Copies every plane.
+    ///
+    /// # Errors
+    /// None for a frame whose planes have the lengths that [`Frame::new`] gave them; the type is that of planes.
+    pub fn planes(&self) -> Result<Planes, Error> {
+        let mut planes = Planes::new();
+        let flat = |v: &[[f32; 3]]| v.iter().flatten().copied().collect::<Vec<f32>>();
+        let mut add = |name: &str, channels: usize, samples: Samples, rounding: Rounding| {
+            let plane = Plane::with_channels(name, self.height, self.width, channels, samples)?;
+            planes.add(plane.rounded(rounding))
+        };
+        add(COLOR_PLANE, 3, flat(&self.rgb).into(), Rounding::Nearest)?;
+        add("verdict", 1, self.verdict.clone().into(), Rounding::Nearest)?;
+        add("t_lo", 1, self.t_lo.clone().into(), Rounding::Down)?;
+        add("t_hi", 1, self.t_hi.clone().into(), Rounding::Up)?;
+        add("normal", 3, flat(&self.normal).into(), Rounding::Nearest)?;
+        add("visible_lo", 1, self.visible_lo.clone().into(), Rounding::Down)?;
+        add("visible_hi", 1, self.visible_hi.clone().into(), Rounding::Up)?;
+        add("facing", 1, self.facing.clone().into(), Rounding::Nearest)?;
+        add("coverage_lo", 1, self.coverage_lo.clone().into(), Rounding::Down)?;
+        add("coverage_hi", 1, self.coverage_hi.clone().into(), Rounding::Up)?;
+        let occluded: Vec<u8> = self.initial_occluded.iter().map(|o| u8::from(*o)).collect();
+        add("initial_occluded", 1, occluded.into(), Rounding::Nearest)?;
+        add("cost", 1, self.cost.clone().into(), Rounding::Nearest)?;
+        Ok(planes)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_plane_is_there_and_bounds_stay_bounds() {
+        let mut frame = Frame::new(3, 2).unwrap();
+        frame.t_lo[5] = 0.1;
+        frame.t_hi[5] = 0.1;
+        frame.rgb[4] = [1.0, 2.0, 3.0];
+        let planes = frame.planes().unwrap();
+        let names: Vec<&str> = planes.iter().map(Plane::name).collect();
+        let wanted =
+            "rgb verdict t_lo t_hi normal visible_lo visible_hi facing coverage_lo coverage_hi initial_occluded cost";
+        assert_eq!(names, wanted.split(' ').collect::<Vec<_>>());
+        let rounding = |name: &str| planes.require(name).unwrap().rounding();
+        assert_eq!((rounding("t_lo"), rounding("t_hi")), (Rounding::Down, Rounding::Up));
+        assert_eq!((rounding("visible_lo"), rounding("visible_hi")), (Rounding::Down, Rounding::Up));
+        assert_eq!(planes.require("rgb").unwrap().shape(), [2, 3, 3]);
+        let Samples::F32(rgb) = planes.require("rgb").unwrap().samples() else { panic!("single precision") };
+        assert_eq!(rgb[12..15], [1.0, 2.0, 3.0]);
+    }
+}
