@@ -6,6 +6,7 @@ mod book;
 mod by_paper;
 mod by_proof;
 mod frame;
+mod overlay;
 mod pixel;
 mod planes;
 mod renderer;
@@ -15,6 +16,7 @@ mod stats;
 mod task;
 
 pub use frame::Frame;
+pub use overlay::Overlay;
 pub use renderer::Renderer;
 pub use spec::{Error, Method, RenderSpec, RunSpec};
 pub use stats::Stats;
