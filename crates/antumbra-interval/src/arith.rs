@@ -15,6 +15,7 @@ impl Neg for Interval {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "one branch for both operands")]
 impl Add for Interval {
     type Output = Self;
     #[inline]
@@ -27,6 +28,7 @@ impl Add for Interval {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "one branch for both operands")]
 impl Sub for Interval {
     type Output = Self;
     #[inline]
