@@ -1,0 +1,2 @@
+mod operators;
+mod user_functions;
