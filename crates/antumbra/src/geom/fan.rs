@@ -107,11 +107,7 @@ mod tests {
 
     #[test]
     fn a_fan_reaches_its_light_at_one() {
-        let light = Rect {
-            center: Vec3::new(0.0, 0.3, 2.0),
-            edge_u: Vec3::new(0.5, 0.1, 0.0),
-            edge_v: Vec3::new(0.0, 0.2, 0.4),
-        };
+        let light = Rect { center: Vec3::new(0.0, 0.3, 2.0), edge_u: Vec3::new(0.5, 0.1, 0.0), edge_v: Vec3::new(0.0, 0.2, 0.4) };
         let (u, v) = (Interval::new(-1.0, 0.5), Interval::new(0.25, 1.0));
         let apex = Vec3::new(0.1, -0.2, 0.3).to_box();
         let fan = Fan::towards(apex, &light, u, v);

@@ -284,12 +284,7 @@ mod tests {
                 .map(|_| {
                     let scale = if round % 5 == 0 { 1e-9 } else { 1.0 };
                     let tilt = if round % 7 == 0 { 1e-6 } else { 1.0 };
-                    HalfPlane {
-                        k: next() * scale,
-                        a: next() * scale,
-                        b: next() * scale * tilt,
-                        e: next().abs() * 0.05 * scale,
-                    }
+                    HalfPlane { k: next() * scale, a: next() * scale, b: next() * scale * tilt, e: next().abs() * 0.05 * scale }
                 })
                 .collect();
             check(&planes, 1e-9);

@@ -51,8 +51,9 @@ impl Rect {
     #[must_use]
     pub fn tile(&self, column: usize, row: usize, n: usize) -> Box3 {
         let range = |k: usize| {
-            let edge =
-                |k: usize| Interval::point(k as f64) / Interval::point(n as f64) * Interval::point(2.0) - Interval::ONE;
+            let edge = |k: usize| {
+                Interval::point(k as f64) / Interval::point(n as f64) * Interval::point(2.0) - Interval::ONE
+            };
             edge(k).hull(edge(k + 1)).intersection(Interval::new(-1.0, 1.0))
         };
         self.part(range(column), range(row))

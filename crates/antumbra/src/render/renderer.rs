@@ -226,7 +226,8 @@ impl Renderer {
                 let rays = self.spec.method.uses_rays();
                 let beam = if rays { self.film.ray(column, row) } else { self.film.beam(column, row) };
                 let mut cost = Cost::default();
-                let find = world.nearest(&beam, Interval::NON_NEGATIVE, self.settings.bisection, &mut work, &mut cost);
+                let find =
+                    world.nearest(&beam, Interval::NON_NEGATIVE, self.settings.bisection, &mut work, &mut cost);
                 let hit = find.map(|find| self.hit(&world, &beam, find, &mut work));
                 (pixel, hit, cost)
             })
@@ -274,7 +275,8 @@ impl Renderer {
         let Some(hit) = hit else {
             self.stats.proved_empty += u64::from(!self.spec.method.uses_rays());
             // A ray that misses proves nothing about the rest of its pixel.
-            let verdict = if self.spec.method.uses_rays() { Verdict::Unknown(Reason::Resolution) } else { Verdict::No };
+            let verdict =
+                if self.spec.method.uses_rays() { Verdict::Unknown(Reason::Resolution) } else { Verdict::No };
             self.frame.verdict[pixel] = Frame::verdict_code(verdict);
             self.frame.rgb[pixel] = self.backdrop(pixel).map(|c| c as f32);
             return;
@@ -318,7 +320,8 @@ impl Renderer {
     }
 
     fn put_color(&mut self, pixel: usize, hit: &Hit, visible: f64) {
-        let point = Point { position: hit.point, normal: hit.normal, outside: hit.outside, floor: hit.floor, visible };
+        let point =
+            Point { position: hit.point, normal: hit.normal, outside: hit.outside, floor: hit.floor, visible };
         let eye = self.film.camera.eye;
         let color = shade::shade(&point, self.light.center, eye, self.backdrop(pixel), self.scene.scale());
         self.frame.rgb[pixel] = color.map(|c| c as f32);

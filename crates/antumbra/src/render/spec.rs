@@ -9,14 +9,11 @@ pub enum Method {
     Paper(paper::Method),
 }
 
+
 impl Method {
     /// Every method with the name it has on the command line, and what it is.
     pub const ALL: [(Self, &'static str, &'static str); 6] = [
-        (
-            Self::Paper(paper::Method::Initial),
-            "paper",
-            "one initial shadow beam, n x n sub-beams where it may be blocked",
-        ),
+        (Self::Paper(paper::Method::Initial), "paper", "one initial shadow beam, n x n sub-beams where it may be blocked"),
         (Self::Paper(paper::Method::Fixed), "fixed49", "always n x n sub-beams (the paper's baseline)"),
         (Self::Paper(paper::Method::Quadtree), "paper-quadtree", "the light divided as a quadtree"),
         (Self::Paper(paper::Method::Four), "paper-4", "four initial beams, for big lights"),
