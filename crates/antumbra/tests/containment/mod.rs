@@ -6,7 +6,7 @@ mod sample;
 
 pub(crate) use kind::Kind;
 pub(crate) use operator::{Operator, Truth};
-pub(crate) use sample::{interval, member};
+pub(crate) use sample::{interval, member, number, power_of_two};
 
 use antumbra::eval::Gradient;
 use antumbra_interval::affine::Affine;
