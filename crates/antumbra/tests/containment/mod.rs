@@ -1,5 +1,5 @@
 //! Random checks that enclosures enclose: shared by the test suite and by the example `containment`.
-#![allow(dead_code, reason = "the example and the tests use different parts of it")]
+#![allow(dead_code, unused_imports, reason = "the example and the tests use different parts of it")]
 mod kind;
 mod operator;
 mod sample;
