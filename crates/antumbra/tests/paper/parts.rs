@@ -152,8 +152,7 @@ fn cells_that_hold_a_zero_are_marked() {
             for grid in &grids {
                 // The zero's cell is among those that meet the segment's box.
                 let range = |k: usize| grid.cells_meeting(k, Interval::point(a[k]).hull(Interval::point(b[k])));
-                let marked = range(0)
-                    .any(|i| range(1).any(|j| range(2).any(|k| grid.possibly_crossed([i, j, k]))));
+                let marked = range(0).any(|i| range(1).any(|j| range(2).any(|k| grid.possibly_crossed([i, j, k]))));
                 assert!(marked, "{}: no cell around the zero near {p:?} is marked", row.name);
             }
         }

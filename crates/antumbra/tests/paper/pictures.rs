@@ -69,7 +69,9 @@ fn methods_agree_about_the_shadow() {
 
 fn assert_same_bits(a: &Frame, b: &Frame, what: &str) {
     let bits = |plane: &[f64]| plane.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-    for (x, y) in [(&a.t_lo, &b.t_lo), (&a.t_hi, &b.t_hi), (&a.visible_lo, &b.visible_lo), (&a.visible_hi, &b.visible_hi)] {
+    for (x, y) in
+        [(&a.t_lo, &b.t_lo), (&a.t_hi, &b.t_hi), (&a.visible_lo, &b.visible_lo), (&a.visible_hi, &b.visible_hi)]
+    {
         assert_eq!(bits(x), bits(y), "{what}");
     }
     assert_eq!((&a.verdict, &a.cost), (&b.verdict, &b.cost), "{what}");
