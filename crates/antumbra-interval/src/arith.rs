@@ -15,6 +15,7 @@ impl Neg for Interval {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "one branch for both operands")]
 impl Add for Interval {
     type Output = Self;
     #[allow(clippy::suspicious_arithmetic_impl, reason = "`|` joins two tests without a branch")]
@@ -28,6 +29,7 @@ impl Add for Interval {
     }
 }
 
+#[allow(clippy::suspicious_arithmetic_impl, reason = "one branch for both operands")]
 impl Sub for Interval {
     type Output = Self;
     #[allow(clippy::suspicious_arithmetic_impl, reason = "`|` joins two tests without a branch")]

@@ -29,12 +29,19 @@ impl Gradient {
     /// `h(self)` by the chain rule: `value` encloses h, `slope` encloses h' over the range of self.
     #[inline]
     fn chain(self, value: Interval, slope: Interval) -> Self {
-        Self { value, partials: self.partials.map(|d| slope * d) }
+        Self::known(value, self.partials.map(|d| slope * d))
+    }
+
+    /// A slope is empty where no point of the box has a finite one: `1/(2 sqrt v)` at v = 0, where the value exists. An
+    /// empty enclosure would claim that there is no value either; so nothing is known.
+    #[inline]
+    fn known(value: Interval, partials: [Interval; 3]) -> Self {
+        Self { value, partials: partials.map(|d| if d.is_empty() && !value.is_empty() { Interval::ENTIRE } else { d }) }
     }
 
     #[inline]
     fn zip(self, o: Self, value: Interval, f: impl Fn(Interval, Interval) -> Interval) -> Self {
-        Self { value, partials: std::array::from_fn(|i| f(self.partials[i], o.partials[i])) }
+        Self::known(value, std::array::from_fn(|i| f(self.partials[i], o.partials[i])))
     }
 }
 
@@ -126,6 +133,10 @@ impl Number for Gradient {
                 let by_base = b * base.pow(b - Interval::ONE);
                 let by_exponent = value * base.ln();
                 self.zip(o, value, |x, y| if y == Interval::ZERO { by_base * x } else { by_base * x + by_exponent * y })
+            }
+            // A jump by 2 pi lies where x < 0 and y passes 0 from below.
+            Binary::Atan2 if b.lo() < 0.0 && a.lo() < 0.0 && a.hi() >= 0.0 => {
+                Self { value, partials: [Interval::ENTIRE; 3] }
             }
             // atan2(y, x)' = (x y' - y x') / (x^2 + y^2)
             Binary::Atan2 => {

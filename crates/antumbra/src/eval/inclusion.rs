@@ -59,8 +59,7 @@ pub trait Inclusion: Send + Sync {
 
     /// The slope `g` of `f(P + t D) = f(P) + t g` over a piece of a beam from an apex known to be in an interval box.
     fn beam_slope(&self, point: [Slope<Interval, 3>; 3], work: &mut Workspace) -> Affine<3> {
-        let region = Box3(point.map(|x| x.apex.hull(x.value.range())));
-        inner_product(self.gradient(&region, work).partials, point.map(|x| x.slope))
+        mean_slope(self, Box3(point.map(|x| x.apex.hull(x.value.range()))), point.map(|x| x.slope), work)
     }
 
     /// The function over a piece of a shaft.
@@ -70,14 +69,27 @@ pub trait Inclusion: Send + Sync {
 
     /// The slope over a piece of a shaft, whose apex varies with the tile.
     fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
-        let region = Box3(point.map(|x| x.apex.range().hull(x.value.range())));
-        inner_product(self.gradient(&region, work).partials, point.map(|x| x.slope))
+        mean_slope(self, Box3(point.map(|x| x.apex.range().hull(x.value.range()))), point.map(|x| x.slope), work)
     }
 }
 
 /// `sum g_k d_k` for numbers `g_k` of intervals that may differ from symbol value to symbol value.
 fn inner_product<const N: usize>(g: [Interval; 3], d: [Affine<N>; 3]) -> Affine<N> {
     (0..3).fold(Affine::ZERO, |sum, k| sum + d[k].mul_interval(g[k]))
+}
+
+/// `f(P + t D) - f(P) = t g . D` with g in the gradient over a box of the whole segment, by the mean value theorem. A jump or
+/// a pole on the segment would make that false: unknown unless f is continuous on the box.
+fn mean_slope<const N: usize>(
+    f: &(impl Inclusion + ?Sized),
+    region: Box3,
+    direction: [Affine<N>; 3],
+    work: &mut Workspace,
+) -> Affine<N> {
+    if !f.continuous_everywhere() && !f.decorated(&region, work).certainly_continuous() {
+        return Affine::UNKNOWN;
+    }
+    inner_product(f.gradient(&region, work).partials, direction)
 }
 
 /// `f(x) = f(m) + g (x - m)` with g in the gradient over the box of all x. Needs f continuous on that (convex) box: it

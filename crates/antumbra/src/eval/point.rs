@@ -46,7 +46,8 @@ impl Number for f64 {
 
     #[inline]
     fn powi(self, n: i32) -> Self {
-        if n < 0 && self == 0.0 { f64::NAN } else { core_math::pow(self, f64::from(n)) }
+        // C's pow(NaN, 0) is 1: undefined must stay undefined.
+        if self.is_nan() || (n < 0 && self == 0.0) { f64::NAN } else { core_math::pow(self, f64::from(n)) }
     }
 
     #[inline]
@@ -61,6 +62,8 @@ impl Number for f64 {
             Binary::Min | Binary::Max if self.is_nan() || other.is_nan() => f64::NAN,
             Binary::Min => self.min(other),
             Binary::Max => self.max(other),
+            // C's pow(1, NaN) is 1 too.
+            Binary::Pow if self.is_nan() || other.is_nan() => f64::NAN,
             Binary::Pow if self < 0.0 || (self == 0.0 && other <= 0.0) => f64::NAN,
             Binary::Pow => core_math::pow(self, other),
             Binary::Atan2 if self == 0.0 && other == 0.0 => f64::NAN,

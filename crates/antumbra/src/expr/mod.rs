@@ -55,6 +55,7 @@ mod statement;
 mod surface;
 mod syntax;
 #[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "a rough second opinion, compared with a tolerance")]
 pub(crate) mod tests;
 
 pub use derivative::Derivative;

@@ -11,7 +11,7 @@ pub fn srgb_from_linear(linear: f64) -> f64 {
         // 1.055 - 0.055 is not 1 in binary arithmetic; white is exactly white.
         1.0
     } else {
-        1.055 * light.powf(1.0 / 2.4) - 0.055
+        1.055 * core_math::pow(light, 1.0 / 2.4) - 0.055
     }
 }
 
@@ -23,7 +23,7 @@ pub fn linear_from_srgb(code: f64) -> f64 {
     } else if code == 1.0 {
         1.0
     } else {
-        ((code + 0.055) / 1.055).powf(2.4)
+        core_math::pow((code + 0.055) / 1.055, 2.4)
     }
 }
 

@@ -55,7 +55,8 @@ pub(super) fn shade(p: &Point, light: Vec3, eye: Vec3, backdrop: [f64; 3], scale
     let color: [f64; 3] = std::array::from_fn(|i| {
         let fill = GROUND[i] + (SKY[i] - GROUND[i]) * up;
         // A thin rim of light where the surface turns away gives shape to the shadows.
-        let rim = 0.10 * (1.0 - p.normal.dot(to_eye).abs()).powi(3);
+        let turned = 1.0 - p.normal.dot(to_eye).abs();
+        let rim = 0.10 * turned * turned * turned;
         let gloss = if cosine > 0.0 { gloss } else { 0.0 };
         base[i] * (p.visible * KEY[i] * cosine + fill) + p.visible * gloss * KEY[i] + rim * SKY[i]
     });

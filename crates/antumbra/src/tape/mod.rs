@@ -3,6 +3,7 @@ mod build;
 mod compile;
 mod constant;
 #[cfg(test)]
+#[allow(clippy::disallowed_methods, reason = "a rough second opinion, compared with a tolerance")]
 mod tests;
 
 pub use build::TapeError;
