@@ -149,7 +149,8 @@ mod tests {
 
     fn row(method: &'static str, cost: u64) -> Row {
         let seconds = cost as f64 / 100.0;
-        let stats = Stats { beams: cost, shadow_evaluations: cost, shadow_seconds: seconds, seconds, ..Stats::default() };
+        let stats =
+            Stats { beams: cost, shadow_evaluations: cost, shadow_seconds: seconds, seconds, ..Stats::default() };
         Row::new(method, &stats)
     }
 

@@ -83,7 +83,8 @@ mod tests {
     #[test]
     fn a_report_is_markdown() {
         let words = |w: [&str; 2]| w.map(str::to_owned).to_vec();
-        let table = Table { caption: "Found".into(), header: words(["surface", "hits"]), rows: vec![words(["a", "7"])] };
+        let table =
+            Table { caption: "Found".into(), header: words(["surface", "hits"]), rows: vec![words(["a", "7"])] };
         let report = Report { title: "T".into(), tables: vec![table], pictures: vec![], notes: vec!["N.".into()] };
         let text = markdown(&report);
         assert!(text.starts_with("# T\n\nFound\n\n| surface |"), "{text}");

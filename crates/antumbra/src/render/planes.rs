@@ -41,10 +41,7 @@ mod tests {
         frame.rgb[4] = [1.0, 2.0, 3.0];
         let planes = frame.planes().unwrap();
         let names: Vec<&str> = planes.iter().map(Plane::name).collect();
-        assert_eq!(
-            names,
-            ["rgb", "verdict", "t_lo", "t_hi", "normal", "visible_lo", "visible_hi", "facing", "cost"]
-        );
+        assert_eq!(names, ["rgb", "verdict", "t_lo", "t_hi", "normal", "visible_lo", "visible_hi", "facing", "cost"]);
         let rounding = |name: &str| planes.require(name).unwrap().rounding();
         assert_eq!((rounding("t_lo"), rounding("t_hi")), (Rounding::Down, Rounding::Up));
         assert_eq!((rounding("visible_lo"), rounding("visible_hi")), (Rounding::Down, Rounding::Up));

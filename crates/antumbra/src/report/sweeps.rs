@@ -35,8 +35,7 @@ pub(super) fn offsets(runs: &mut Runs<'_>) -> Result<Report, Error> {
         for fraction in OFFSETS {
             let offset = fraction * scene.scale();
             let method = Method::Paper(paper::Method::Initial);
-            let stats =
-                runs.render(&scene, RenderSpec { method, offset: Some(offset), ..runs.spec.clone() })?.stats();
+            let stats = runs.render(&scene, RenderSpec { method, offset: Some(offset), ..runs.spec.clone() })?.stats();
             table.row([
                 format!("{fraction}"),
                 format!("{offset:.2e}"),
