@@ -8,6 +8,7 @@ use std::{
 };
 
 use antumbra::{
+    expr::ErrorKind,
     image::Depth,
     render::{Method, RenderSpec, RunSpec},
     report::Exhibit,
@@ -184,11 +185,14 @@ fn find_scene(text: &str) -> Result<NamedScene> {
         let scene = Arc::new(scene.map_err(|e| Usage(explain(&e, text)))?);
         return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene });
     }
-    from_formula(text).map_err(|error| if looks_like_a_name(text) { no_preset(text) } else { error })
+    from_formula(text)
 }
 
 fn from_formula(text: &str) -> Result<NamedScene> {
-    let scene = Arc::new(Scene::from_formula(text).map_err(|e| Usage(explain(&e, text)))?);
+    let scene = Arc::new(Scene::from_formula(text).map_err(|e| match &e {
+        scene::Error::Formula(e) if e.kind() == ErrorKind::UnknownName && looks_like_a_name(text) => no_preset(text),
+        _ => Usage(explain(&e, text)),
+    })?);
     Ok(NamedScene { name: text.to_owned(), stem: "antumbra".to_owned(), scene })
 }
 
@@ -208,13 +212,13 @@ fn looks_like_a_name(text: &str) -> bool {
         && text.chars().all(|c| c.is_alphanumeric() || matches!(c, '-' | '_' | ' '))
 }
 
-fn no_preset(text: &str) -> anyhow::Error {
+fn no_preset(text: &str) -> Usage {
     let names: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
     let advice = match values::nearest(text, &names) {
         Some(name) => format!("did you mean `{name}`?"),
         None => format!("the presets are {}; a formula in x, y, z will do too", names.join(", ")),
     };
-    Usage(format!("no preset named `{text}`; {advice}")).into()
+    Usage(format!("no preset named `{text}`; {advice}"))
 }
 
 #[cfg(test)]

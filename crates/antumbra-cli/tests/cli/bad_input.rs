@@ -58,7 +58,13 @@ fn scenes_and_methods_that_do_not_exist() {
 fn formulas_that_are_none() {
     refused(&["render", ""], 2, &["empty"]);
     refused(&["render", "   "], 2, &["empty"]);
-    refused(&["render", "x^2 + $"], 2, &["column 7", "^"]);
+    refused(&["render", "x^2 + $"], 2, &["error: `$` has no meaning here", "1 | x^2 + $", "      ^"]);
+    refused(&["compare", "x^2 + $"], 2, &["has no meaning here"]);
+    refused(&["render", "(x + 1"], 2, &["never closed"]);
+    refused(&["render", "x/0"], 2, &["division by a constant that is exactly 0"]);
+    refused(&["render", "x + 1/(2 - 2)"], 2, &["division by a constant that is exactly 0"]);
+    refused(&["render", "nan"], 2, &["`nan` is not a real number"]);
+    refused(&["render", "x + inf"], 2, &["`inf` is not a real number"]);
     refused(&["render", "-x^2 + 1"], 2, &["-- -x"]);
     refused(&["render"], 2, &["SCENE-OR-FORMULA"]);
 }
@@ -71,6 +77,21 @@ fn formulas_from_standard_input() {
     assert_eq!(bench.names(), [""; 0]);
     let args = ["render", "-", "--size", "4", "-o", "p.png"];
     bench.antumbra(&args).write_stdin("x^2 + y^2\n + z^2 - 1\n").assert().success();
+}
+
+#[test]
+fn monstrous_formulas() {
+    let bench = Bench::new();
+    let run = |text: String| bench.antumbra(&["render", "-", "--size", "2", "-q"]).write_stdin(text).assert();
+    run("x+".repeat(5_000_000) + "1").code(2).stderr(contains("10000001 bytes; the most is"));
+    run("(".repeat(100_000) + "x").code(2).stderr(contains("never closed"));
+    run("x".to_owned() + &")".repeat(100_000)).code(2).stderr(contains("error: "));
+    assert_eq!(bench.names(), [""; 0]);
+    // As deep, but in order: a plane.
+    run("(".repeat(100_000) + "x" + &")".repeat(100_000)).success();
+    assert_eq!(bench.names(), ["antumbra.png"]);
+    // One argument may not be longer than 128 KiB on Linux.
+    refused(&["render", &("(".repeat(100_000) + "x")], 2, &["never closed"]);
 }
 
 #[test]

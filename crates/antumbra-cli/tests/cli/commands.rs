@@ -63,7 +63,62 @@ fn planes_and_json_say_the_same_size() {
     for name in ["hits", "beams", "evaluations", "primary_seconds", "shadow_seconds", "seconds", "threads"] {
         assert!(stats[name].is_number(), "{name}: {stats}");
     }
-    assert!(stats["classes"].is_object());
+    let class = |name: &str| stats["classes"][name].as_u64().unwrap();
+    assert_eq!(class("lit") + class("partly") + class("dark"), stats["hits"].as_u64().unwrap());
+    for (name, dtype) in [("verdict", "|u1"), ("visible_lo", "<f8"), ("normal", "<f4"), ("cost", "<u4")] {
+        let bytes = fs::read(bench.file(&format!("planes/{name}.npy"))).unwrap();
+        assert_eq!(npyz::NpyFile::new(&bytes[..]).unwrap().dtype().descr(), format!("'{dtype}'"), "{name}");
+    }
+}
+
+#[test]
+fn planes_do_not_depend_on_threads() {
+    let bench = Bench::new();
+    for threads in ["1", "2", "7"] {
+        // Not a multiple of the tile, and random rays: both could depend on the order of the work.
+        for method in ["paper", "rays-mc"] {
+            let folder = format!("{method}-{threads}");
+            let picture = format!("{folder}/p.exr");
+            let args = ["render", "orthocircle", "--size", "37x19", "--floor", "--method", method, "-q"];
+            let files = ["--threads", threads, "--planes", &folder, "-o", &picture];
+            bench.antumbra(&[&args[..], &files].concat()).assert().success();
+        }
+    }
+    for method in ["paper", "rays-mc"] {
+        let mut names = 0;
+        for entry in fs::read_dir(bench.file(&format!("{method}-1"))).unwrap() {
+            let name = entry.unwrap().file_name();
+            let bytes = |threads: &str| fs::read(bench.file(&format!("{method}-{threads}")).join(&name)).unwrap();
+            assert!(bytes("1") == bytes("2") && bytes("1") == bytes("7"), "{method}: {name:?}");
+            names += 1;
+        }
+        assert_eq!(names, 10, "nine planes and the picture");
+    }
+}
+
+#[test]
+fn beams_are_counted_as_the_paper_counts_them() {
+    let bench = Bench::new();
+    let stats = |method: &str, more: &[&str]| {
+        let args = ["render", "mcmullen", "--size", "24", "--method", method, "--json", "-", "-q"];
+        json(&bench.antumbra(&[&args[..], more].concat()).assert().success().get_output().stdout)
+    };
+    let number = |stats: &Value, name: &str| stats[name].as_u64().unwrap();
+    let fixed = stats("fixed49", &[]);
+    assert_eq!((number(&fixed, "beams"), number(&fixed, "initial_beams")), (49 * number(&fixed, "hits"), 0));
+    let paper = stats("paper", &[]);
+    assert_eq!(number(&paper, "hits"), number(&fixed, "hits"));
+    assert_eq!(number(&paper, "initial_beams"), number(&paper, "hits"));
+    assert_eq!(number(&paper, "beams"), 49 * number(&paper, "initial_occluded"));
+    assert!(number(&paper, "initial_occluded") < number(&paper, "hits"));
+    assert!(number(&paper, "evaluations") < number(&fixed, "evaluations"));
+    // An initial beam may be blocked where no sub-beam is, never the other way round.
+    assert_eq!(paper["classes"], fixed["classes"]);
+    assert_eq!(number(&stats("paper", &["--sub-beams", "3"]), "beams"), 9 * number(&paper, "initial_occluded"));
+    assert!(number(&stats("paper", &["--light-scale", "8"]), "partly") > number(&paper, "partly"));
+    assert!(number(&stats("paper", &["--floor"]), "floor_hits") > 0);
+    assert_eq!(number(&stats("paper", &["--grid", "8"]), "grid_evaluations"), 512);
+    assert_eq!(number(&stats("paper", &["--offset", "100"]), "lit"), number(&paper, "hits"));
 }
 
 #[test]
@@ -90,18 +145,47 @@ fn compare_prints_a_table_and_writes_its_json() {
         assert!(methods.iter().all(|m| m[name].is_number()), "{name}");
     }
     assert_eq!(bench.names(), ["c.json"]);
+    // The same hits for all, and each method as if it ran alone.
+    assert!(methods.iter().all(|m| m["hits"] == methods[0]["hits"]));
+    assert!(methods.iter().all(|m| m["primary_evaluations"] == methods[0]["primary_evaluations"]));
+    let args = ["render", "chubs", "--size", "8", "--method", "paper", "--json", "-", "-q"];
+    let alone = json(&bench.antumbra(&args).assert().success().get_output().stdout);
+    for name in ["hits", "beams", "evaluations"] {
+        assert_eq!(methods[1][name], alone[name], "{name}");
+    }
+}
+
+#[test]
+fn table_1_has_every_row_and_the_published_numbers() {
+    let bench = Bench::new();
+    let args = ["paper", "table1", "--size", "24", "-q", "-o", "tables"];
+    let result = bench.antumbra(&args).assert().success().stderr(predicate::str::is_empty());
+    let text = String::from_utf8(result.get_output().stdout.clone()).unwrap().replace('\u{202f}', " ");
+    for surface in ["Orthocircle", "Chubs", "Kusner-Schmitt", "McMullen"] {
+        assert_eq!(text.lines().filter(|l| l.starts_with(&format!("| {surface}"))).count(), 3, "{surface}\n{text}");
+    }
+    for number in ["13 328 (5.1 %)", "14 691", "\\*", "719 859", "8 749 244", "6.57", "38 %", "14.961", "73.386"] {
+        assert!(text.contains(number), "{number}\n{text}");
+    }
+    assert_eq!(fs::read(bench.file("tables/table1.md")).unwrap(), result.get_output().stdout);
+    assert_eq!(bench.names(), ["tables"]);
 }
 
 #[test]
 fn paper_prints_tables_and_writes_figures() {
     let bench = Bench::new();
-    bench.antumbra(&["paper", "table1", "--size", "4"]).assert().success().stdout(contains("Table1"));
+    bench.antumbra(&["paper", "table1", "--size", "4"]).assert().success().stdout(contains("Table 1"));
     assert_eq!(bench.names(), [""; 0]);
     bench.antumbra(&["paper", "fig6", "--size", "4", "-o", "figures"]).assert().success().stderr(contains("wrote"));
-    assert!(bench.file("figures/fig6.md").exists());
-    assert!(
-        fs::read_dir(bench.file("figures")).unwrap().any(|e| e.unwrap().path().extension() == Some("png".as_ref()))
-    );
+    for name in ["fig6.md", "fig6.png", "fig6-chubs.png", "fig6-kusner.png", "fig6-mcmullen.png"] {
+        assert!(bench.file("figures").join(name).exists(), "{name}");
+    }
+    bench.antumbra(&["paper", "fig7", "--size", "4"]).assert().success().stderr(contains("fig7-orthocircle.png"));
+    assert!(bench.file("fig7.png").exists() && bench.file("fig7.md").exists());
+    for name in ["offsets", "grids"] {
+        let args = ["paper", name, "--size", "2", "--sub-beams", "2"];
+        bench.antumbra(&args).assert().success().stdout(contains("Orthocircle")).stdout(contains("McMullen"));
+    }
 }
 
 #[test]

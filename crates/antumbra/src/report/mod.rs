@@ -40,7 +40,7 @@ impl Exhibit {
         (Self::Table1, "table1", "beams and times of the four surfaces, our columns beside the paper's"),
         (Self::Offsets, "offsets", "shadows for several offsets of the shadow beams (--offset has no say)"),
         (Self::Grids, "grids", "cost for several grids (--grid has no say)"),
-        (Self::Fig1, "fig1", "rays against beams on a thin sheet"),
+        (Self::Fig1, "fig1", "rays against beams on thin surfaces"),
         (Self::Fig5, "fig5", "the same over a floor that shows the shadow (with or without --floor)"),
         (Self::Fig6, "fig6", "the four surfaces with their soft shadows"),
         (Self::Fig7, "fig7", "initial beam blocked in blue, truly in shadow in red"),
