@@ -54,7 +54,8 @@ pub(super) fn offsets(runs: &mut Runs<'_>) -> Result<Report, Error> {
          themselves. Too large: thin occluders near the point are missed, and shadows begin too late."
             .to_owned(),
         "\"Rays\": share of all pixels at 512 x 512, by centre rays and 7 x 7 points of the light, from a program \
-         that shares no code with this one. Beams may find more (they overestimate), never less at offset 0."
+         that shares no code with this one. The paper's hits lie in front of the surface, the more so the fewer the \
+         pixels: that can make shadows larger or smaller, and hide the effect of the offset."
             .to_owned(),
     ];
     Ok(Report { title: format!("Offsets: {}", runs.setting()), tables, pictures: vec![], notes })
