@@ -73,6 +73,22 @@ pub trait Inclusion: Send + Sync {
     }
 }
 
+/// The mean value form `f(m) + grad f . (X - m)` over a box X with middle m: of second order, where the natural extension
+/// is of first. Everything (`ENTIRE`) where f is not proved to be defined and continuous on the box: the theorem speaks
+/// of functions that are, along every segment from m. Two or three evaluations.
+pub fn centred_range(f: &dyn Inclusion, region: &Box3, work: &mut Workspace) -> Interval {
+    if !f.continuous_everywhere() && !f.decorated(region, work).certainly_continuous() {
+        return Interval::ENTIRE;
+    }
+    let mid = region.mid().to_box();
+    let centre = f.range(&mid, work);
+    let slope = f.gradient(region, work).partials;
+    if slope.iter().any(|s| s.is_empty() || s.magnitude() == f64::INFINITY) {
+        return Interval::ENTIRE;
+    }
+    (0..3).fold(centre, |sum, i| sum + slope[i] * (region[i] - mid[i]))
+}
+
 /// `sum g_k d_k` for numbers `g_k` of intervals that may differ from symbol value to symbol value.
 fn inner_product<const N: usize>(g: [Interval; 3], d: [Affine<N>; 3]) -> Affine<N> {
     (0..3).fold(Affine::ZERO, |sum, k| sum + d[k].mul_interval(g[k]))

@@ -16,6 +16,6 @@ mod machine;
 mod point;
 
 pub use gradient::Gradient;
-pub use inclusion::{BeamPoint, Inclusion, ShaftPoint, Workspace};
+pub use inclusion::{BeamPoint, Inclusion, ShaftPoint, Workspace, centred_range};
 pub use machine::{Number, run};
 pub use point::value_at;

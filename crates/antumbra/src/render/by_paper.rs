@@ -5,7 +5,7 @@ use crate::eval::Workspace;
 use crate::geom::Vec3;
 use crate::grid::Grid;
 use crate::paper::{Method, World, shadow};
-use crate::trace::{Cost, Target};
+use crate::trace::{Bisection, Cost, Target};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
 
@@ -29,7 +29,7 @@ pub(super) fn primary(task: &Task, grids: &[Grid], pixels: impl Iterator<Item = 
             let (column, row) = (index % task.film.width, index / task.film.width);
             let beam = if rays { task.film.ray(column, row) } else { task.film.beam(column, row) };
             let mut cost = Cost::default();
-            let search = task.settings.bisection;
+            let search = Bisection { centred: true, ..task.settings.bisection };
             let find = world.nearest(&beam, Interval::NON_NEGATIVE, search, &mut work, &mut cost);
             let hit = find.map(|find| task.hit(find.object, &beam, find.t, None, &mut work));
             // A ray that misses proves nothing about the rest of its pixel.

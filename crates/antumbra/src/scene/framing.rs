@@ -1,6 +1,6 @@
 //! Where is the surface, and from where does one look at it?
 use super::{Object, Scene, View};
-use crate::eval::{Inclusion, Workspace};
+use crate::eval::{Inclusion, Workspace, centred_range};
 use crate::geom::{Box3, Clip, Rect, Vec3};
 use antumbra_interval::Interval;
 
@@ -76,7 +76,7 @@ pub(super) fn region(f: &dyn Inclusion, clip: &Clip) -> Clip {
             return *clip;
         }
         budget -= 1;
-        if !f.range(&cell, &mut work).possibly_zero() || !mean_value(f, &cell, &mut work).possibly_zero() {
+        if !f.range(&cell, &mut work).possibly_zero() || !centred_range(f, &cell, &mut work).possibly_zero() {
             continue;
         }
         // Cut along the longest edge, at the border of the kept box if it runs through the cell.
@@ -105,24 +105,13 @@ fn hull_of_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace) -> Optio
         for j in 0..CELLS {
             for i in 0..CELLS {
                 let cell = Box3([slab(0, i), slab(1, j), slab(2, k)]);
-                if f.range(&cell, work).possibly_zero() && mean_value(f, &cell, work).possibly_zero() {
+                if f.range(&cell, work).possibly_zero() && centred_range(f, &cell, work).possibly_zero() {
                     hull = Some(hull.map_or(cell, |h| h.hull(cell)));
                 }
             }
         }
     }
     hull
-}
-
-/// `f(m) + grad f . (X - m)`, or everything where f may be undefined at m.
-fn mean_value(f: &dyn Inclusion, cell: &Box3, work: &mut Workspace) -> Interval {
-    let mid = cell.mid().to_box();
-    let centre = f.range(&mid, work);
-    let slope = f.gradient(cell, work).partials;
-    if centre.is_empty() || slope.iter().any(|s| s.is_empty() || s.magnitude() == f64::INFINITY) {
-        return Interval::ENTIRE;
-    }
-    (0..3).fold(centre, |sum, i| sum + slope[i] * (cell[i] - mid[i]))
 }
 
 /// A scene around one object: the camera sees its clip box from the front, a little to the right and above; a square

@@ -1,6 +1,6 @@
 //! The paper's stackless bisection (section 2, "Root Searching").
 use super::Cost;
-use crate::eval::{Inclusion, Workspace};
+use crate::eval::{Inclusion, Workspace, centred_range};
 use crate::geom::{Beam, section};
 use antumbra_interval::Interval;
 
@@ -9,11 +9,15 @@ use antumbra_interval::Interval;
 pub struct Bisection {
     /// Sections narrower than this are not divided further (paper: 1e-5).
     pub width: f64,
+    /// Where the natural extension admits a zero, ask the mean value form too: about three times the cost of an
+    /// evaluation, and much nearer to the united extension that the paper speaks of. Pixel beams need it, or they report
+    /// a rim of pixels around the surface (measured on Chubs: 11 % more hits than the surface has, against 1 %).
+    pub centred: bool,
 }
 
 impl Default for Bisection {
     fn default() -> Self {
-        Self { width: 1e-5 }
+        Self { width: 1e-5, centred: false }
     }
 }
 
@@ -36,7 +40,15 @@ pub fn first_section(
 ) -> Option<Interval> {
     let mut admits_zero = |part: Interval| {
         cost.evaluations += 1;
-        f.range(&beam.at(part), work).possibly_zero()
+        let region = beam.at(part);
+        if !f.range(&region, work).possibly_zero() {
+            return false;
+        }
+        if !search.centred {
+            return true;
+        }
+        cost.evaluations += 2;
+        centred_range(f, &region, work).possibly_zero()
     };
     if t.hi() == f64::INFINITY {
         // Unbounded: cannot be halved. Callers clip to a grid, so this is a beam that runs along its cell's plane.

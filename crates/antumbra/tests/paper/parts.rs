@@ -49,7 +49,7 @@ fn stackless_bisection_finds_what_recursion_finds() {
         let t = Interval::new(r.f64(), 1.0 + r.f64());
         let width = [1e-5, 1e-3, 0.1][r.usize(0..3)];
         let mut cost = Cost::default();
-        let stackless = first_section(&f, &along_x(), t, Bisection { width }, &mut work, &mut cost);
+        let stackless = first_section(&f, &along_x(), t, Bisection { width, centred: false }, &mut work, &mut cost);
         // The paper's search begins with the halves.
         let wanted = recursive(&f, t, 0, 1, width, &mut work).or_else(|| recursive(&f, t, 1, 1, width, &mut work));
         assert_eq!(stackless, wanted, "{text} on {t:?}");
@@ -98,7 +98,7 @@ fn bisection_returns_the_first_section() {
         marked.sort_unstable();
         let first = marked[0];
         let mut cost = Cost::default();
-        let search = Bisection { width: 1.0 / 1000.0 };
+        let search = Bisection { width: 1.0 / 1000.0, centred: false };
         let found = first_section(&Marked(marked), &along_x(), Interval::new(0.0, 1.0), search, &mut work, &mut cost);
         assert_eq!(found, Some(section(Interval::new(0.0, 1.0), first, 10)));
         // At most one rejected sibling on each of the ten levels.
@@ -131,7 +131,7 @@ fn cells_that_hold_a_zero_are_marked() {
     let mut work = Workspace::default();
     for row in PRESETS.iter().filter(|p| !["pole", "viviani", "circle", "sphere2", "flat"].contains(&p.name)) {
         let scene = preset(row.name).unwrap().unwrap();
-        let (f, clip) = (scene.objects[0].surface.as_ref(), scene.objects[0].clip);
+        let (f, clip) = (scene.objects[0].surface.as_ref(), scene.objects[0].clip.bounds());
         let grids = [7, 32].map(|n| Grid::build(f, clip, n));
         let mut zeros = 0;
         for _ in 0..400 {
