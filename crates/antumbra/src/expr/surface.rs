@@ -11,6 +11,7 @@
 //! | `g^c`, real power, c > 0 -> `g` (root) | undefined for g < 0, 0 for g = 0, positive for g > 0 |
 //! | `c*g` -> `g`, c never 0 and defined everywhere (factor) | a product is 0 iff a factor is; c never is and hides no point |
 //! | `g/h` -> `g`, h never 0 and defined everywhere (factor) | defined where g is; 0 iff g is |
+//! | `c/h` -> `c`, c a constant that is not 0 (root) | neither is ever 0: a pole is not a surface |
 //! | `g*g*h` -> `g*h` (factors) | same domain; both are 0 iff g or h is |
 //! | `sqrt(g) - c`, `c - sqrt(g)` -> `g - c^2`, c >= 0 (root) | sqrt(g) = c iff g = c^2, since then g >= 0 |
 //!
@@ -116,6 +117,9 @@ fn root_step(g: &mut Graph, root: NodeId) -> Option<(NodeId, Vec<ZeroStep>)> {
             }
             let square = g.unary(Unary::Sqr, c);
             Some((g.binary(Binary::Sub, inside, square), vec![ZeroStep::Distance]))
+        }
+        Node::Binary(Binary::Div, a, _) if g.facts(a).constant && g.facts(a).total && g.facts(a).nonzero => {
+            Some((a, vec![ZeroStep::Factor]))
         }
         Node::Binary(Binary::Mul, ..) => product_step(g, root),
         _ => None,

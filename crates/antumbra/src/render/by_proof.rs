@@ -14,6 +14,8 @@ pub(super) const BLOCK: usize = 32;
 const SIMPLE: usize = 4;
 /// A pixel that an edge crosses is divided this often, for the bounds of its coverage.
 const COVERAGE_LEVELS: u32 = 2;
+/// Cosine between normals within a pixel from which it is shown as one surface.
+const PLAIN_NORMAL: f64 = 0.97;
 /// Rays along each side of such a pixel, for its colour.
 const EDGE_RAYS: usize = 4;
 
@@ -110,6 +112,9 @@ impl Primary<'_> {
         if coverage[1] == 0.0 {
             return Pixel { index, known: Known::Empty, coverage, hit: None, edge: None, cost };
         }
+        if hit.is_some_and(|hit| self.plain((column, row), &hit, open, &mut cost)) {
+            return Pixel { index, known, coverage, hit, edge: None, cost };
+        }
         let mut edge = Vec::with_capacity(EDGE_RAYS * EDGE_RAYS);
         for k in 0..EDGE_RAYS * EDGE_RAYS {
             let ray = self.task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS);
@@ -131,6 +136,19 @@ impl Primary<'_> {
         Pixel { index, known, coverage, hit, edge: Some(edge), cost }
     }
 
+    /// Whether rays near the corners of a pixel meet about the same as its centre ray: then one colour will do.
+    fn plain(&mut self, (column, row): (usize, usize), centre: &Hit, open: &Open, cost: &mut Cost) -> bool {
+        [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().all(|(i, j)| {
+            let last = EDGE_RAYS - 1;
+            let ray = self.task.film.sub_ray(column, row, i * last, j * last, EDGE_RAYS);
+            let meeting = self.meet(&ray, open, Effort::COARSE, cost);
+            meeting.is_some_and(|m| {
+                let corner = self.hit(&ray, &m);
+                corner.normal.dot(centre.normal) > PLAIN_NORMAL && corner.floor == centre.floor
+            })
+        })
+    }
+
     fn meet(&mut self, ray: &Beam, open: &Open, effort: Effort, cost: &mut Cost) -> Option<Meeting> {
         first_meeting(&self.surfaces, ray, &open.open, effort, &mut self.rays, &mut self.work, cost)
     }
@@ -147,18 +165,23 @@ impl Primary<'_> {
     /// Bounds of the covered share of a window of the film. The shares are multiples of 4^-levels: exact.
     fn coverage(&mut self, window: [Interval; 2], parent: &Open, levels: u32, cost: &mut Cost) -> [f64; 2] {
         let ([left, right], [below, above]) = (halves(window[0]), halves(window[1]));
-        let mut sum = [0.0; 2];
-        for (x, y) in [(left, below), (right, below), (left, above), (right, above)] {
+        let quarters = [[left, below], [right, below], [left, above], [right, above]];
+        let open = quarters.map(|[x, y]| {
             let fan = self.task.film.fan_of(x, y);
-            let open = narrow(&self.surfaces, &fan, parent, &mut self.stack, &mut self.work, cost);
+            narrow(&self.surfaces, &fan, parent, &mut self.stack, &mut self.work, cost)
+        });
+        // Where no quarter is settled (a sheet thinner than the pixel, say), going on would only cost.
+        let settled = open.iter().any(|o| o.certainly_empty() || o.certainly_covered());
+        let mut sum = [0.0; 2];
+        for (window, open) in quarters.into_iter().zip(&open) {
             let part = if open.certainly_empty() {
                 [0.0, 0.0]
             } else if open.certainly_covered() {
                 [1.0, 1.0]
-            } else if levels <= 1 {
+            } else if levels <= 1 || !settled {
                 [0.0, 1.0]
             } else {
-                self.coverage([x, y], &open, levels - 1, cost)
+                self.coverage(window, open, levels - 1, cost)
             };
             sum = [sum[0] + 0.25 * part[0], sum[1] + 0.25 * part[1]];
         }
