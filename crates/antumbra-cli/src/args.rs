@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use antumbra::{
-    render::{Method, RenderSpec},
+    render::{Method, Overlay, RenderSpec},
     report::Exhibit,
 };
 use clap::{Parser, Subcommand};
@@ -38,8 +38,8 @@ Examples:
   antumbra render mcmullen --planes planes --json - --quiet | jq .hits
   antumbra render - < formula.txt
 
-Planes have row 0 at the top. The shape of verdict, t_lo, t_hi, visible_lo, visible_hi, facing and cost is \
-(height, width), that of normal and rgb (linear light) is (height, width, 3). t_lo and t_hi are NaN only where the \
+Planes have row 0 at the top. The shape of verdict, t_lo, t_hi, visible_lo, visible_hi, \
+coverage_lo, coverage_hi, facing, initial_occluded and cost is (height, width), that of normal and rgb (linear light) is (height, width, 3). t_lo and t_hi are NaN only where the \
 pixel is empty.";
 
 /// Render a scene or a formula to a picture.
@@ -67,6 +67,10 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) spec: SpecArgs,
+
+    /// Draw what is known instead of the surface, with a legend: verdict, shadow, cost or width (of the brackets)
+    #[arg(long, value_name = "KIND", value_parser = values::overlay)]
+    pub(crate) overlay: Option<Overlay>,
 
     /// Write every plane as DIR/NAME.npy
     #[arg(long, value_name = "DIR")]
@@ -118,6 +122,14 @@ pub(crate) struct SpecArgs {
     #[arg(long, value_name = "E", value_parser = values::offset, allow_negative_numbers = true)]
     pub(crate) offset: Option<f64>,
 
+    /// Certified: how wide a bracket of the visible fraction may be, as a number or a fraction such as 1/1024
+    #[arg(long, value_name = "T", default_value = "1/255", value_parser = values::tolerance, allow_negative_numbers = true)]
+    pub(crate) tolerance: f64,
+
+    /// Certified: rectangles of the light that one hit may take before its bracket is left open
+    #[arg(long, value_name = "N", default_value = "4000", value_parser = clap::value_parser!(u32).range(1..))]
+    pub(crate) rectangles: u32,
+
     /// Seed of the random points of rays-mc
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) seed: u64,
@@ -143,7 +155,7 @@ pub(crate) struct CompareArgs {
         long,
         value_name = "A,B,C",
         value_delimiter = ',',
-        default_value = "fixed49,paper",
+        default_value = "fixed49,paper,certified",
         value_parser = values::method
     )]
     pub(crate) methods: Vec<Method>,

@@ -10,7 +10,7 @@ use std::{
 use antumbra::{
     expr::ErrorKind,
     image::Depth,
-    render::{Method, RenderSpec, RunSpec},
+    render::{Method, Overlay, RenderSpec, RunSpec},
     report::Exhibit,
     scene::{self, PRESETS, Scene},
 };
@@ -57,6 +57,7 @@ pub(crate) struct RenderOptions {
     pub(crate) run: RunSpec,
     pub(crate) picture: PathBuf,
     pub(crate) format: Format,
+    pub(crate) overlay: Option<Overlay>,
     pub(crate) planes: Option<PathBuf>,
     pub(crate) json: Option<JsonTarget>,
     pub(crate) quiet: bool,
@@ -98,7 +99,17 @@ impl RenderOptions {
             return Err(Usage(format!("`{}` cannot be both picture and JSON", picture.display())).into());
         }
         let (spec, run) = specs(args.spec, args.method);
-        Ok(Self { scene, spec, run, picture, format, planes: args.planes, json, quiet: args.quiet })
+        Ok(Self {
+            scene,
+            spec,
+            run,
+            picture,
+            format,
+            overlay: args.overlay,
+            planes: args.planes,
+            json,
+            quiet: args.quiet,
+        })
     }
 }
 
@@ -145,6 +156,8 @@ fn specs(args: SpecArgs, method: Method) -> (RenderSpec, RunSpec) {
         sub_beams: args.sub_beams,
         offset: args.offset,
         seed: args.seed,
+        tolerance: args.tolerance,
+        rectangles: args.rectangles,
         ..RenderSpec::default()
     };
     (spec, RunSpec { threads: args.threads })

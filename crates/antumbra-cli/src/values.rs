@@ -1,6 +1,9 @@
 //! Values of options, from text. Each function says what it accepts when it refuses.
 
-use antumbra::{render::Method, report::Exhibit};
+use antumbra::{
+    render::{Method, Overlay},
+    report::Exhibit,
+};
 
 /// Width and height in pixels.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,6 +77,23 @@ pub(crate) fn offset(text: &str) -> Result<f64, String> {
         Ok(e) if e.is_finite() && e >= 0.0 => Ok(e),
         _ => Err("give a finite distance of 0 or more, such as 1e-4".to_owned()),
     }
+}
+
+/// A width in (0, 1], as a number or as a fraction `1/n`.
+pub(crate) fn tolerance(text: &str) -> Result<f64, String> {
+    let value = match text.split_once('/') {
+        Some((a, b)) => a.trim().parse::<f64>().ok().zip(b.trim().parse::<f64>().ok()).map(|(a, b)| a / b),
+        None => text.parse::<f64>().ok(),
+    };
+    match value {
+        Some(t) if (1e-9..=1.0).contains(&t) => Ok(t),
+        _ => Err("give a number from 1e-9 to 1, or a fraction such as 1/1024".to_owned()),
+    }
+}
+
+/// An overlay by its name.
+pub(crate) fn overlay(text: &str) -> Result<Overlay, String> {
+    Overlay::from_name(text).ok_or_else(|| choices("overlays", text, &Overlay::ALL.map(|(_, name)| name)))
 }
 
 /// A method by its name.

@@ -50,7 +50,8 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     drop(progress);
 
     let planes = renderer.frame().planes()?;
-    picture.fill(&picture_bytes(&planes, options.format)?)?;
+    let overlay = options.overlay.map(|kind| renderer.frame().overlay(kind, options.spec.tolerance)).transpose()?;
+    picture.fill(&picture_bytes(overlay.as_ref().unwrap_or(&planes), options.format)?)?;
     let mut sinks = vec![picture];
     if let Some(folder) = &folder {
         for plane in planes.iter() {

@@ -54,7 +54,7 @@ pub const PRESETS: &[Preset] = &[
     },
     Preset {
         stage: Some(Stage { eye: [-3.0, -3.0, 1.0], fov_deg: 24.5, light: [-2.0, -5.0, 6.0], side: 0.2, floor: -1.1 }),
-        ..row("kusner", "Kusner-Schmitt", "(x^2 + 3) (y^2 + 3) (z^2 + 3) - 32 (x y z + 1) = 0", 1.01)
+        ..row("kusner", "Kusner-Schmitt", "(x^2 + 3) (y^2 + 3) (z^2 + 3) - 32 (x y z + 1) = 0", 1.1)
     },
     Preset {
         stage: Some(Stage { eye: [2.0, -5.0, 4.0], fov_deg: 26.0, light: [4.0, -3.0, 3.0], side: 0.3, floor: -1.8 }),
@@ -99,4 +99,21 @@ pub fn preset(name: &str) -> Option<Result<Scene, Error>> {
         }
         scene
     }))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_preset_is_a_scene_and_the_papers_surfaces_are_whole() {
+        for row in PRESETS {
+            let scene = preset(row.name).expect("it is in the table").expect("its formula is right");
+            let object = &scene.objects[0];
+            if ["orthocircle", "chubs", "kusner", "mcmullen"].contains(&row.name) {
+                assert_ne!(object.region, object.clip, "{}: the clip is not proved to cut nothing away", row.name);
+            }
+        }
+        assert!(preset("nothing").is_none());
+    }
 }
