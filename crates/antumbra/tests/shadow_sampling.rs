@@ -1,0 +1,157 @@
+//! Brackets of the visible fraction against plain sampling, on random pixels of every preset. The sampler has its own
+//! code path (`truth/sampler.rs`): the hit again by bisection in twice the precision, the light at the corners of a
+//! grid, each ray by many values of f. A cell whose corners disagree counts as unknown, so the sampled share is itself
+//! a pair of bounds; what cells with equal corners may hide is allowed for by a few cells of slack.
+#[path = "truth/double.rs"]
+mod double;
+#[path = "truth/sampler.rs"]
+mod sampler;
+
+use antumbra::render::{Frame, Method, RenderSpec, Renderer, RunSpec};
+use antumbra::scene::{PRESETS, Scene, preset};
+use double::Double;
+use sampler::{Judge, Shares, camera_ray, visible};
+use std::sync::Arc;
+use std::time::Duration;
+
+/// Side of the pictures.
+const SIZE: usize = 20;
+/// Cells along each side of the light.
+const GRID: usize = 16;
+/// Pixels looked at in each picture.
+const PIXELS: usize = 6;
+
+/// Surfaces thinner than what lies between two rays of the grid: their shadows may hide between the corners.
+const THIN: [&str; 3] = ["twister", "wire3", "wire6"];
+
+fn slack(name: &str) -> f64 {
+    let cells = if THIN.contains(&name) { 12.0 } else { 3.0 };
+    cells / (GRID * GRID) as f64
+}
+
+fn render(scene: &Arc<Scene>, light_scale: f64, floor: bool) -> Frame {
+    let method = Method::Certified;
+    // Few rectangles: brackets may stay wide, never wrong. One of the blade's costs a hundred times another's.
+    let rectangles = if scene.name == "twister" { 8 } else { 200 };
+    let spec = RenderSpec { width: SIZE, height: SIZE, method, light_scale, floor, rectangles, ..RenderSpec::default() };
+    let mut renderer = Renderer::new(Arc::clone(scene), spec, RunSpec { threads: Some(1) }).unwrap();
+    while !renderer.refine(Duration::from_secs(60)) {}
+    renderer.frame().clone()
+}
+
+/// The sampler's answer for a proved hit; `None` if it cannot find the hit again, which is a failure of the hit.
+fn sampled(scene: &Scene, judges: &[Judge], frame: &Frame, index: usize, light_scale: f64) -> Option<Shares> {
+    let (column, row) = ((index % SIZE) as f64 + 0.5, (index / SIZE) as f64 + 0.5);
+    let (eye, direction) = camera_ray(&scene.view.camera(1.0), [SIZE, SIZE], column, row);
+    // The camera's rays and the constants are enclosed there and rounded here: some units in the last place.
+    let (t_lo, t_hi) = (frame.t_lo[index], frame.t_hi[index]);
+    let wide = 1e-12 * t_hi;
+    for (own, judge) in judges.iter().enumerate() {
+        let (before, behind) = (judge.sign(&eye, &direction, t_lo - wide), judge.sign(&eye, &direction, t_hi + wide));
+        if before * behind < 0.0 {
+            let t = judge.root(&eye, &direction, [Double::from(t_lo - wide), Double::from(t_hi + wide)]);
+            let p = std::array::from_fn(|k| eye[k] + direction[k] * t);
+            let light = scene.light.scaled(light_scale);
+            return Some(visible(judges, own, &p, before, &light, GRID));
+        }
+    }
+    None
+}
+
+fn judges(scene: &Scene, floor: bool) -> Vec<Judge> {
+    let floor = floor.then(|| scene.floor().unwrap());
+    scene.objects.iter().chain(&floor).map(Judge::new).collect()
+}
+
+#[derive(Default, Debug)]
+struct Tally {
+    checked: usize,
+    undecided: usize,
+    lit: usize,
+    dark: usize,
+    partly: usize,
+    /// Penumbrae in which the sampler itself knows the share up to 0.2.
+    sharp: usize,
+}
+
+fn check(names: &[&str]) -> Tally {
+    let mut tally = Tally::default();
+    let mut wrong = Vec::new();
+    let mut random = fastrand::Rng::with_seed(11);
+    for &name in names {
+        let scene = Arc::new(preset(name).unwrap().unwrap());
+        for (light_scale, floor) in [(1.0, false), (4.0, false), (1.0, true), (4.0, true)] {
+            let _t0 = std::time::Instant::now();
+            let frame = render(&scene, light_scale, floor);
+            let _t1 = _t0.elapsed();
+            let judges = judges(&scene, floor);
+            let hits: Vec<usize> = (0..SIZE * SIZE).filter(|&i| frame.verdict[i] == 1).collect();
+            tally.undecided += frame.verdict.iter().filter(|v| (2..=5).contains(*v)).count();
+            // Half of them where the light is partly visible, as far as there are such.
+            let (edge, rest): (Vec<usize>, Vec<usize>) =
+                hits.iter().partition(|&&i| frame.visible_hi[i] > 0.0 && frame.visible_lo[i] < 1.0);
+            for k in 0..PIXELS {
+                let from = if k % 2 == 0 && !edge.is_empty() || rest.is_empty() { &edge } else { &rest };
+                let Some(&index) = random.choice(from) else { continue };
+                let (lo, hi) = (frame.visible_lo[index], frame.visible_hi[index]);
+                let what = format!("{name}, light x{light_scale}, floor {floor}, pixel {index}: [{lo}, {hi}]");
+                let Some(shares) = sampled(&scene, &judges, &frame, index, light_scale) else {
+                    wrong.push(format!("{what}: no hit"));
+                    continue;
+                };
+                if !shares.agree(lo, hi, slack(name)) {
+                    wrong.push(format!("{what}, sampled {shares:?}"));
+                }
+                tally.checked += 1;
+                tally.lit += usize::from(lo == 1.0);
+                tally.dark += usize::from(hi == 0.0);
+                let partly = hi > 0.05 && lo < 0.95;
+                tally.partly += usize::from(partly);
+                tally.sharp += usize::from(partly && shares.hi - shares.lo < 0.2);
+            }
+            eprintln!("TIME {name} {light_scale} {floor}: render {_t1:?} all {:?} hits {} edge {}", _t0.elapsed(), hits.len(), edge.len());
+        }
+    }
+    assert!(wrong.is_empty(), "{wrong:#?}\n{tally:?}");
+    tally
+}
+
+#[test]
+fn sampling_confirms_the_paper_s_surfaces() {
+    let tally = check(&["orthocircle", "chubs", "kusner", "mcmullen"]);
+    assert!(tally.checked >= 90 && tally.lit > 10 && tally.dark > 10 && tally.partly > 10 && tally.sharp > 5, "{tally:?}");
+}
+
+#[test]
+fn sampling_confirms_the_other_presets() {
+    let names: Vec<&str> = PRESETS.iter().skip(4).map(|p| p.name).collect();
+    let tally = check(&names);
+    assert!(tally.checked >= 200 && tally.undecided > 100 && tally.partly > 20, "{tally:?}");
+}
+
+/// The check must be able to fail: brackets that are wrong on purpose are found.
+#[test]
+fn wrong_brackets_are_found() {
+    let scene = Arc::new(preset("sphere").unwrap().unwrap());
+    let frame = render(&scene, 4.0, true);
+    let judges = judges(&scene, true);
+    let (mut penumbrae, mut found) = (0, 0);
+    for index in (0..SIZE * SIZE).filter(|&i| frame.verdict[i] == 1).step_by(5) {
+        let (lo, hi) = (frame.visible_lo[index], frame.visible_hi[index]);
+        let shares = sampled(&scene, &judges, &frame, index, 4.0).unwrap();
+        let agree = |lo, hi| shares.agree(lo, hi, slack("sphere"));
+        assert!(agree(lo, hi));
+        if lo == 1.0 || hi == 0.0 {
+            assert!(!agree(1.0 - hi, 1.0 - lo), "light and shadow exchanged at {index}");
+        } else {
+            penumbrae += 1;
+            found += usize::from(!agree(lo + 0.15, hi + 0.15) && !agree(lo - 0.15, hi - 0.15));
+        }
+    }
+    assert!(penumbrae >= 3 && 2 * found > penumbrae, "{found} of {penumbrae}");
+    // A hit that is not there.
+    let mut moved = frame.clone();
+    let index = (0..SIZE * SIZE).find(|&i| frame.verdict[i] == 1).unwrap();
+    (moved.t_lo[index], moved.t_hi[index]) = (frame.t_lo[index] + 1e-9, frame.t_hi[index] + 1e-9);
+    assert!(sampled(&scene, &judges, &moved, index, 1.0).is_none());
+}
