@@ -62,7 +62,9 @@ fn box_corners() -> Vec<Point3> {
 fn a_box_over_the_floor() {
     let (bench, light) = (Bench::new(&[FLOOR, BOX]), light(0.0, 0.0, 4.0, 1.0));
     let mut seen = [false; 3];
-    for (x, y) in [(0.0, 0.0), (0.25, 0.0), (0.5, 0.25), (0.75, -0.5), (1.25, 0.125), (-1.625, 0.75), (2.5, 1.0), (0.0, 3.0)] {
+    for (x, y) in
+        [(0.0, 0.0), (0.25, 0.0), (0.5, 0.25), (0.75, -0.5), (1.25, 0.125), (-1.625, 0.75), (2.5, 1.0), (0.0, 3.0)]
+    {
         let at = Vec3::new(x, y, 0.0);
         let truth = share_beside(&exact::point(at), &box_corners(), &light);
         seen[if truth.is_zero() { 0 } else { 1 + usize::from(truth.is_one()) }] = true;
@@ -118,12 +120,10 @@ fn a_motion_changes_nothing() {
         let at = Vec3::new(px, py, 0.0);
         let truth = share_beside(&exact::point(at), &box_corners(), &flat);
         // The same geometry again, by the oracle in the moved scene.
-        let there: Vec<Point3> =
-            box_corners().iter().map(|c| {
-                std::array::from_fn(|i| {
-                    (0..3).fold(rational(shift[i]), |sum, k| sum + rational(m[i][k]) * &c[k])
-                })
-            }).collect();
+        let there: Vec<Point3> = box_corners()
+            .iter()
+            .map(|c| std::array::from_fn(|i| (0..3).fold(rational(shift[i]), |sum, k| sum + rational(m[i][k]) * &c[k])))
+            .collect();
         assert_eq!(truth, share_beside(&exact::point(moved(at)), &there, &tilted));
         bench.expect(moved(at), moved(ABOVE), &tilted, &just(truth));
     }
@@ -279,8 +279,8 @@ fn rings_of_wire_cost_a_little_light() {
 
 #[test]
 fn squares_cast_the_shadows_of_their_roots() {
-    let [plain, squared] = ["x^2 + y^2 + (z - 2)^2 - 1 = 0", "(x^2 + y^2 + (z - 2)^2 - 1)^2 = 0"]
-        .map(|text| Bench::new(&[FLOOR, text]));
+    let [plain, squared] =
+        ["x^2 + y^2 + (z - 2)^2 - 1 = 0", "(x^2 + y^2 + (z - 2)^2 - 1)^2 = 0"].map(|text| Bench::new(&[FLOOR, text]));
     let light = light(0.0, 0.0, 4.0, 1.0);
     let mut partly = 0;
     for k in 0..12 {
@@ -366,7 +366,9 @@ fn the_horizon_of_a_sphere() {
 fn the_horizon_of_a_plane() {
     let bench = Bench::new(&[FLOOR]);
     // Light that dips below the floor, by shares that are exact.
-    for (z, share) in [(2.0, ratio(1, 1)), (1.0, ratio(1, 1)), (0.5, ratio(3, 4)), (0.0, ratio(1, 2)), (-0.75, ratio(1, 8))] {
+    for (z, share) in
+        [(2.0, ratio(1, 1)), (1.0, ratio(1, 1)), (0.5, ratio(3, 4)), (0.0, ratio(1, 2)), (-0.75, ratio(1, 8))]
+    {
         let light =
             Rect { center: Vec3::new(5.0, 1.0, z), edge_u: Vec3::new(0.5, 1.0, 0.0), edge_v: Vec3::new(1.0, 0.0, 1.0) };
         bench.expect(Vec3::new(0.25, 0.5, 0.0), ABOVE, &light, &just(share));

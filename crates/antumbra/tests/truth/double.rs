@@ -123,8 +123,20 @@ impl Number for Double {
             Binary::Mul => self * o,
             Binary::Div => self / o,
             Binary::Min | Binary::Max if self.hi.is_nan() || o.hi.is_nan() => f64::NAN.into(),
-            Binary::Min => if (self - o).negative() { self } else { o },
-            Binary::Max => if (self - o).negative() { o } else { self },
+            Binary::Min => {
+                if (self - o).negative() {
+                    self
+                } else {
+                    o
+                }
+            }
+            Binary::Max => {
+                if (self - o).negative() {
+                    o
+                } else {
+                    self
+                }
+            }
             _ => self.hi.binary(op, o.hi).into(),
         }
     }

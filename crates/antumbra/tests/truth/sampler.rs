@@ -3,7 +3,7 @@
 use super::double::Double;
 use antumbra::eval::{run, value_at};
 use antumbra::expr::{Formula, Unary};
-use antumbra::geom::{Camera, Clip, Rect, Vec3};
+use antumbra::geom::{Camera, Clip, Vec3};
 use antumbra::scene::Object;
 use antumbra::tape::{Op, Tape};
 
@@ -36,9 +36,8 @@ pub(crate) struct Judge {
 impl Judge {
     pub(crate) fn new(object: &Object) -> Self {
         let tape = Tape::compile(Formula::parse(&object.text).unwrap().surface().formula()).unwrap();
-        let exact = |op: &Op| {
-            !matches!(op, Op::Unary(op) if !matches!(op, Unary::Neg | Unary::Abs | Unary::Sqr | Unary::Sqrt))
-        };
+        let exact =
+            |op: &Op| !matches!(op, Op::Unary(op) if !matches!(op, Unary::Neg | Unary::Abs | Unary::Sqr | Unary::Sqrt));
         let noise = if tape.clauses().iter().all(|c| exact(&c.op)) { 1e-24 } else { 1e-14 };
         Self { tape, clip: object.clip, noise }
     }
@@ -134,25 +133,16 @@ impl Judge {
         if unclear { Seen::Unclear } else { Seen::Clear }
     }
 
-    /// The sign of f at a parameter of a ray, 1 or -1, or 0 if it is not known.
-    pub(crate) fn sign(&self, p: &Point, d: &Point, t: f64) -> f64 {
-        let v = self.value(p, d, t, f64::INFINITY, &mut Slots::default());
-        if v.abs() > self.noise { v.signum() } else { 0.0 }
+    /// The value at `p + t d`, in twice the usual precision.
+    pub(crate) fn exact(&self, p: &Point, d: &Point, t: Double) -> f64 {
+        let at: Point = std::array::from_fn(|k| p[k] + d[k] * t);
+        run(&self.tape, at, &mut Vec::new()).hi
     }
 
-    /// The root in `[lo, hi]`, at whose ends f has opposite signs.
-    pub(crate) fn root(&self, p: &Point, d: &Point, [mut lo, mut hi]: [Double; 2]) -> Double {
-        let mut slots = Slots::default();
-        let mut value = |t: Double| {
-            let at: Point = std::array::from_fn(|k| p[k] + d[k] * t);
-            run(&self.tape, at, &mut slots.double).hi
-        };
-        let first = value(lo);
-        for _ in 0..80 {
-            let middle = (lo + hi) * 0.5.into();
-            if value(middle) * first > 0.0 { lo = middle } else { hi = middle }
-        }
-        (lo + hi) * 0.5.into()
+    /// The sign of f at a parameter of a ray, 1 or -1, or 0 if it is not known.
+    pub(crate) fn sign(&self, p: &Point, d: &Point, t: f64) -> f64 {
+        let v = self.exact(p, d, t.into());
+        if v.abs() > self.noise { v.signum() } else { 0.0 }
     }
 }
 
@@ -171,9 +161,8 @@ pub(crate) fn camera_ray(camera: &Camera, [width, height]: [usize; 2], column: f
     let film = |k: f64, n: usize| Double::from(2.0 * k) / Double::from(n as f64) - 1.0.into();
     let (x, y) = (film(column, width), -film(row, height));
     let c = camera;
-    let direction = std::array::from_fn(|k| {
-        Double::from(c.forward[k]) + x * Double::from(c.right[k]) + y * Double::from(c.up[k])
-    });
+    let direction =
+        std::array::from_fn(|k| Double::from(c.forward[k]) + x * Double::from(c.right[k]) + y * Double::from(c.up[k]));
     (point(c.eye), direction)
 }
 
@@ -206,24 +195,4 @@ impl Shares {
     pub(crate) fn agree(&self, lo: f64, hi: f64, slack: f64) -> bool {
         lo <= self.hi + slack && hi >= self.lo - slack
     }
-}
-
-/// The visible share of a light from a point on surface number `own`, whose side is `side`.
-pub(crate) fn visible(judges: &[Judge], own: usize, p: &Point, side: f64, light: &Rect, n: usize) -> Shares {
-    Shares::of(n, |i, j| {
-        let place = |k: usize| 2.0 * k as f64 / n as f64 - 1.0;
-        let (u, v) = (Double::from(place(i)), Double::from(place(j)));
-        let d: Point = std::array::from_fn(|k| {
-            Double::from(light.center[k]) + u * light.edge_u[k].into() + v * light.edge_v[k].into() - p[k]
-        });
-        let mut known = true;
-        for (index, judge) in judges.iter().enumerate() {
-            match judge.follow(p, &d, 0.0, 1.0, (index == own).then_some(side)) {
-                Seen::Blocked(_) => return Some(false),
-                Seen::Unclear => known = false,
-                Seen::Clear => {}
-            }
-        }
-        known.then_some(true)
-    })
 }

@@ -1,0 +1,35 @@
+//! A hit found again, and its light by sampling.
+use super::double::Double;
+use super::sampler::{Judge, Point, Seen, Shares};
+use antumbra::geom::Rect;
+
+/// The root on `p + t d` between two parameters at which f has opposite signs.
+pub(crate) fn root(judge: &Judge, p: &Point, d: &Point, [lo, hi]: [f64; 2]) -> Double {
+    let (mut lo, mut hi) = (Double::from(lo), Double::from(hi));
+    let first = judge.exact(p, d, lo);
+    for _ in 0..80 {
+        let middle = (lo + hi) * 0.5.into();
+        if judge.exact(p, d, middle) * first > 0.0 { lo = middle } else { hi = middle }
+    }
+    (lo + hi) * 0.5.into()
+}
+
+/// The visible share of a light from a point on surface number `own`, whose side is `side`.
+pub(crate) fn visible(judges: &[Judge], own: usize, p: &Point, side: f64, light: &Rect, n: usize) -> Shares {
+    Shares::of(n, |i, j| {
+        let place = |k: usize| 2.0 * k as f64 / n as f64 - 1.0;
+        let (u, v) = (Double::from(place(i)), Double::from(place(j)));
+        let d: Point = std::array::from_fn(|k| {
+            Double::from(light.center[k]) + u * light.edge_u[k].into() + v * light.edge_v[k].into() - p[k]
+        });
+        let mut known = true;
+        for (index, judge) in judges.iter().enumerate() {
+            match judge.follow(p, &d, 0.0, 1.0, (index == own).then_some(side)) {
+                Seen::Blocked(_) => return Some(false),
+                Seen::Unclear => known = false,
+                Seen::Clear => {}
+            }
+        }
+        known.then_some(true)
+    })
+}
