@@ -47,7 +47,10 @@ const FAR: f64 = 1e4;
 
 impl Picture {
     fn new(name: &str, size: usize, floor: bool) -> Self {
-        let scene = scene(name);
+        Self::of(scene(name), size, floor)
+    }
+
+    fn of(scene: Arc<Scene>, size: usize, floor: bool) -> Self {
         let frame = render(&scene, spec(size, floor), 1);
         Self { judges: judges(&scene, floor), scene, frame }
     }
@@ -115,8 +118,9 @@ impl Picture {
 }
 
 /// Random pixels of a picture: how many of each verdict were looked at.
-fn check(name: &str, floor: bool, pixels: usize) -> [usize; 256] {
-    let picture = Picture::new(name, 16, floor);
+fn check(scene: Arc<Scene>, floor: bool, pixels: usize) -> [usize; 256] {
+    let picture = Picture::of(scene, 16, floor);
+    let name = picture.scene.name.as_str();
     let mut random = fastrand::Rng::with_seed(5);
     let mut seen = [0; 256];
     // Edges of cells with equal corners may hide a little; thin things hide better.
@@ -136,11 +140,32 @@ fn sampling_confirms_what_pixels_show() {
     let mut all = [0; 256];
     for preset in PRESETS {
         for floor in [false, true] {
-            let seen = check(preset.name, floor, 12);
+            let seen = check(scene(preset.name), floor, 12);
             all.iter_mut().zip(seen).for_each(|(a, s)| *a += s);
         }
     }
     assert!(all[usize::from(EMPTY)] > 60 && all[usize::from(HIT)] > 60, "{:?}", &all[..8]);
+}
+
+#[test]
+fn sampling_confirms_formulas_with_poles_steps_and_domains() {
+    let mut all = [0; 256];
+    for text in [
+        "sqrt(x) - y = 0",
+        "1/x + y + z = 0",
+        "tan(2x) - z = 0",
+        "max(abs(x) - 0.5, abs(y) - 0.7) = 0",
+        "floor(2x) + 0.5 + y/3 = 0",
+        "sqrt(1 - x^2 - y^2) - z = 0",
+        "asin(x) + y - z/2 = 0",
+        "x / (y^2 + z - 0.2) - 0.3 = 0",
+        "atan2(y, x) - z = 0",
+        "mod(x, 1) - 0.5 + z/5 = 0",
+    ] {
+        let seen = check(Arc::new(Scene::from_formula(text).unwrap()), false, 40);
+        all.iter_mut().zip(seen).for_each(|(a, s)| *a += s);
+    }
+    assert!(all[usize::from(EMPTY)] > 10 && all[usize::from(HIT)] > 60, "{:?}", &all[..8]);
 }
 
 #[test]

@@ -9,11 +9,15 @@ mod light;
 #[path = "truth/sampler.rs"]
 mod sampler;
 
-use antumbra::geom::Vec3;
+use antumbra::eval::Workspace;
+use antumbra::geom::{Box3, Clip, Rect, Vec3};
 use antumbra::render::{Frame, Method, RenderSpec, Renderer, RunSpec};
-use antumbra::scene::{PRESETS, Scene, View, preset};
+use antumbra::scene::{Object, PRESETS, Scene, View, preset};
+use antumbra::shadow::{self, Receiver, Scratch, Tolerance, whole_beam};
+use antumbra::trace::{Cost, Sign, Surface};
+use antumbra_interval::Interval;
 use light::{root, visible};
-use sampler::{Judge, Shares, camera_ray};
+use sampler::{Judge, Point, Seen, Shares, camera_ray, point};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -146,6 +150,83 @@ fn sampling_confirms_hits_on_wires() {
     };
     let tally = check(vec![near("wire3", 0.02), near("wire6", 2e-5)]);
     assert!(tally.checked == 8 * PIXELS && tally.lit + tally.dark > 10, "{tally:?}");
+}
+
+/// Formulas with poles, steps, kinks and borders of their domain, and plain ones.
+const ODD: [&str; 20] = [
+    "x^2 + y^2 + z^2 = 1",
+    "sqrt(x) - y = 0",
+    "1/x + y + z = 0",
+    "ln(x + 1) + z = 0",
+    "tan(2x) - z = 0",
+    "max(abs(x) - 0.5, abs(y) - 0.7) = 0",
+    "abs(x) - abs(y) + z = 0",
+    "min(x^2 + y^2 - 0.3, z) = 0",
+    "floor(2x) + 0.5 + y/3 = 0",
+    "x y z - 0.05 = 0",
+    "sqrt(1 - x^2 - y^2) - z = 0",
+    "(x^2 + y^2 - 0.5)^2 + z^2 - 0.01 = 0",
+    "asin(x) + y - z/2 = 0",
+    "x / (y^2 + z - 0.2) - 0.3 = 0",
+    "sin(5x) + y = 0",
+    "cbrt(x) - z = 0",
+    "x^0.5 - z^2 + y = 0",
+    "atan2(y, x) - z = 0",
+    "mod(x, 1) - 0.5 + z/5 = 0",
+    "sign(x) + 2y = 0",
+];
+
+/// One or two odd surfaces in random boxes, a receiver on one of them wherever a random ray meets it, and a light of any
+/// shape and place: it may lie in the surface, behind it, or beyond its box.
+#[test]
+fn sampling_confirms_odd_surfaces() {
+    let mut random = fastrand::Rng::with_seed(2);
+    let (mut brackets, mut partly) = (0, 0);
+    for round in 0..2500 {
+        let objects: Vec<Object> = (0..random.usize(1..3))
+            .map(|_| {
+                let mut side = || {
+                    let lo = 2.0 * random.f64() - 1.5;
+                    Interval::new(lo, lo + 0.3 + 1.5 * random.f64())
+                };
+                let small = Box3([side(), side(), side()]);
+                let clip = [Clip::Everywhere, Clip::Box(Box3::cube(1.2)), Clip::Box(small)][random.usize(0..3)];
+                Object::parse(ODD[random.usize(0..ODD.len())], clip).unwrap()
+            })
+            .collect();
+        let judges: Vec<Judge> = objects.iter().map(Judge::new).collect();
+        let own = random.usize(0..objects.len());
+        let mut vector = |size: f64| Vec3(std::array::from_fn(|_| size * (2.0 * random.f64() - 1.0)));
+        let (eye, direction) = (point(vector(1.2)), point(vector(1.5)));
+        let Seen::Blocked([a, b]) = judges[own].follow(&eye, &direction, 0.0, 1.0, None) else { continue };
+        let ends = [a - 1e-9, b + 1e-9];
+        let [before, behind] = ends.map(|t| judges[own].sign(&eye, &direction, t));
+        if before * behind >= 0.0 {
+            continue;
+        }
+        let t = root(&judges[own], &eye, &direction, ends);
+        let hit: Point = std::array::from_fn(|k| eye[k] + direction[k] * t);
+        let light = Rect { center: vector(2.5), edge_u: vector(0.8), edge_v: vector(0.8) };
+        let surfaces: Vec<Surface<'_>> =
+            objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip }).collect();
+        let receiver = Receiver {
+            point: Box3(hit.map(|x| Interval::new(x.hi - 1e-14, x.hi + 1e-14))),
+            surface: own,
+            side: if before > 0.0 { Sign::Positive } else { Sign::Negative },
+        };
+        let tolerance = Tolerance { width: 1.0 / 255.0, rectangles: 300 };
+        let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
+        let pieces = whole_beam(&surfaces);
+        let b = shadow::visible(&surfaces, &receiver, &light, &pieces, tolerance, &mut scratch, &mut work, &mut cost);
+        let shares = visible(&judges, own, &hit, before, &light, 12);
+        assert!(
+            shares.agree(b.lo, b.hi, 4.0 / 144.0),
+            "round {round}: {objects:?}, on {own} at {receiver:?}, {light:?}: {b:?}, sampled {shares:?}"
+        );
+        brackets += 1;
+        partly += usize::from(b.hi > 0.02 && b.lo < 0.98);
+    }
+    assert!(brackets > 300 && partly > 100, "{brackets} brackets, {partly} of penumbrae");
 }
 
 /// The check must be able to fail: brackets that are wrong on purpose are found.

@@ -87,9 +87,10 @@ impl Judge {
         }
         let near = self.noise * scale;
         if let Some(side) = leaving
-            && values[0] * side < -near
+            && let Some(first) = values.iter().position(|v| v.abs() > near)
+            && values[first] * side < 0.0
         {
-            return Seen::Blocked([lo, places[0]]);
+            return Seen::Blocked([lo, places[first]]);
         }
         let mut unclear = false;
         for k in 0..values.len() {
