@@ -1,0 +1,38 @@
+//! A hit found again, and its light by sampling.
+use super::double::Double;
+use super::sampler::{Judge, Point, Seen, Shares};
+use antumbra::geom::Rect;
+
+/// The root on `p + t d` between two parameters at which f has opposite signs.
+pub(crate) fn root(judge: &Judge, p: &Point, d: &Point, [lo, hi]: [f64; 2]) -> Double {
+    let (mut lo, mut hi) = (Double::from(lo), Double::from(hi));
+    let first = judge.exact(p, d, lo);
+    for _ in 0..80 {
+        let middle = (lo + hi) * 0.5.into();
+        if judge.exact(p, d, middle) * first > 0.0 { lo = middle } else { hi = middle }
+    }
+    (lo + hi) * 0.5.into()
+}
+
+/// Whether the point `(u, v)` of a light is visible from a point on surface number `own`, whose side is `side`.
+pub(crate) fn sees(judges: &[Judge], own: usize, p: &Point, side: f64, light: &Rect, [u, v]: [f64; 2]) -> Option<bool> {
+    let (u, v) = (Double::from(u), Double::from(v));
+    let d: Point = std::array::from_fn(|k| {
+        Double::from(light.center[k]) + u * light.edge_u[k].into() + v * light.edge_v[k].into() - p[k]
+    });
+    let mut known = true;
+    for (index, judge) in judges.iter().enumerate() {
+        match judge.follow(p, &d, 0.0, 1.0, (index == own).then_some(side)) {
+            Seen::Blocked(_) => return Some(false),
+            Seen::Unclear => known = false,
+            Seen::Clear => {}
+        }
+    }
+    known.then_some(true)
+}
+
+/// The visible share of a light, by the corners of `n x n` cells.
+pub(crate) fn visible(judges: &[Judge], own: usize, p: &Point, side: f64, light: &Rect, n: usize) -> Shares {
+    let place = |k: usize| 2.0 * k as f64 / n as f64 - 1.0;
+    Shares::of(n, |i, j| sees(judges, own, p, side, light, [place(i), place(j)]))
+}
