@@ -1,5 +1,9 @@
 //! What the camera sees, against plain sampling: random pixels of every preset, curves that must not vanish, poles and
 //! steps that must not be drawn, domains, threads.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "the checker is independent on purpose: it uses other functions than the library"
+)]
 #[path = "truth/double.rs"]
 mod double;
 #[path = "truth/sampler.rs"]

@@ -1,6 +1,10 @@
 //! Brackets of the visible fraction against exact answers: rational arithmetic where they are rational, enclosures of pi
 //! and one-dimensional integrals with a proved margin where they are not. The scene is a floor `z = 0` with a light above
 //! it and one occluder in between, unless said otherwise.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "the checker is independent on purpose: it uses other functions than the library"
+)]
 #[path = "truth/bench.rs"]
 mod bench;
 #[path = "truth/exact.rs"]

@@ -30,8 +30,11 @@ impl Bench {
 
     /// The bracket at a point on the first surface, which is looked at from `towards`.
     pub(crate) fn ask(&self, at: Vec3, towards: Vec3, light: &Rect, width: f64, rectangles: u32) -> Bracket {
-        let surfaces: Vec<Surface<'_>> =
-            self.objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip }).collect();
+        let surfaces: Vec<Surface<'_>> = self
+            .objects
+            .iter()
+            .map(|o| Surface { function: o.surface.as_ref(), clip: o.clip, region: o.region })
+            .collect();
         let receiver = Receiver { point: at.to_box(), surface: 0, side: self.side(towards) };
         let tolerance = Tolerance { width, rectangles };
         let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
