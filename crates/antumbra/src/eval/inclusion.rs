@@ -44,6 +44,11 @@ pub trait Inclusion: Send + Sync {
         false
     }
 
+    /// About how many operations an evaluation takes: searches that may be long are cut short by it.
+    fn operations(&self) -> usize {
+        1
+    }
+
     /// Value and derivative along a ray.
     fn ray(&self, point: [Dual<1>; 3], work: &mut Workspace) -> Dual<1> {
         let value = mean_value(self, point.map(|x| x.value), work);
@@ -141,6 +146,10 @@ impl Inclusion for Tape {
 
     fn continuous_everywhere(&self) -> bool {
         self.is_continuous_everywhere()
+    }
+
+    fn operations(&self) -> usize {
+        self.clauses().len()
     }
 
     #[inline]

@@ -108,7 +108,8 @@ impl Book {
         let (column, row) = (index % task.film.width, index / task.film.width);
         let backdrop = shade::backdrop(&task.film, column as f64 + 0.5, row as f64 + 0.5);
         let Some(hit) = hit else { return backdrop.map(|c| c as f32) };
-        let touching = self.frame.verdict[index] == Frame::verdict_code(Verdict::Unknown(Reason::Touching));
+        // All hits of the paper's methods are undecided; there it would say nothing.
+        let touching = task.method == Method::Certified && hit.receiver.is_none() && !self.at_an_edge(task, index);
         let Hit { point: position, normal, outside, floor, .. } = *hit;
         let point = Point { position, normal, outside, floor, visible, touching };
         let eye = task.film.camera.eye;
@@ -130,6 +131,7 @@ impl Book {
             let mut color = sum.map(|s| s / edge.len() as f32);
             if edge.iter().all(Option::is_none)
                 && let Some(hit) = &self.hits[index]
+                && !self.at_an_edge(task, index)
             {
                 let thin = self.color(task, index, Some(hit), self.light_near(task, index, hit));
                 let weight = if self.frame.coverage_lo[index] > 0.0 { 1.0 } else { THIN_WEIGHT };
@@ -142,21 +144,21 @@ impl Book {
         }
     }
 
+    /// Whether a surface is proved in the pixel or next to it: what is undecided there is how far its edge reaches.
+    fn at_an_edge(&self, task: &Task, index: usize) -> bool {
+        neighbours(task, index).any(|at| matches!(self.frame.verdict[at], 1 | Frame::PARTLY))
+    }
+
     /// Visible fraction at the known hit nearest to `hit` among a pixel and its neighbours.
     fn light_near(&self, task: &Task, index: usize, hit: &Hit) -> f64 {
-        let (width, height) = (task.film.width, task.film.height);
-        let (column, row) = (index % width, index / width);
         let mut best = (f64::INFINITY, 1.0);
-        for y in row.saturating_sub(1)..=(row + 1).min(height - 1) {
-            for x in column.saturating_sub(1)..=(column + 1).min(width - 1) {
-                let at = y * width + x;
-                if let Some(other) = &self.hits[at]
-                    && other.floor == hit.floor
-                {
-                    let distance = (other.point - hit.point).length();
-                    if distance < best.0 {
-                        best = (distance, 0.5 * (self.frame.visible_lo[at] + self.frame.visible_hi[at]));
-                    }
+        for at in neighbours(task, index) {
+            if let Some(other) = &self.hits[at]
+                && other.floor == hit.floor
+            {
+                let distance = (other.point - hit.point).length();
+                if distance < best.0 {
+                    best = (distance, 0.5 * (self.frame.visible_lo[at] + self.frame.visible_hi[at]));
                 }
             }
         }
@@ -164,5 +166,13 @@ impl Book {
     }
 }
 
+/// Indices of a pixel and those around it.
+fn neighbours(task: &Task, index: usize) -> impl Iterator<Item = usize> + use<> {
+    let (width, height) = (task.film.width, task.film.height);
+    let (column, row) = (index % width, index / width);
+    let columns = column.saturating_sub(1)..(column + 2).min(width);
+    (row.saturating_sub(1)..(row + 2).min(height)).flat_map(move |y| columns.clone().map(move |x| y * width + x))
+}
+
 /// How strongly a pixel shows something that may be there and that no ray of its grid meets.
-const THIN_WEIGHT: f32 = 0.35;
+const THIN_WEIGHT: f32 = 0.6;

@@ -151,3 +151,60 @@ pub fn shaft(
     }
     if open.is_empty() { ShaftVerdict::Lit } else { ShaftVerdict::Open }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geom::Vec3;
+
+    #[allow(clippy::float_arithmetic, reason = "points to test with")]
+    /// Hits on a ball, each known up to `thickness`, at every place of an n x n tile.
+    fn cap(n: u32, thickness: f64) -> Vec<(u32, u32, Receiver)> {
+        let places = (0..n).flat_map(|j| (0..n).map(move |i| (i, j)));
+        let receiver = |i: u32, j: u32| {
+            let (x, y) = (0.3 + 0.02 * f64::from(i), -0.2 + 0.03 * f64::from(j));
+            let z = (1.0 - x * x - y * y).sqrt();
+            let point = Box3(Vec3::new(x, y, z).0.map(|c| Interval::new(c - thickness, c + thickness)));
+            Receiver { point, surface: 0, side: Sign::Positive }
+        };
+        places.map(|(i, j)| (i, j, receiver(i, j))).collect()
+    }
+
+    #[test]
+    #[allow(clippy::float_arithmetic, reason = "slack of a test")]
+    fn a_fit_contains_every_hit_at_its_place_and_is_tight() {
+        for thickness in [0.0, 1e-12, 1e-3] {
+            let hits = cap(8, thickness);
+            let placed: Vec<_> = hits.iter().map(|(i, j, r)| (*i, *j, r)).collect();
+            let shaft = Shaft::fit(&placed).unwrap();
+            let place = super::super::policy::Places::of(hits.iter().map(|(i, j, _)| (*i, *j)));
+            let mut used = 0.0_f64;
+            for (i, j, receiver) in &hits {
+                let [x, y] = place.symbols(*i, *j);
+                for k in 0..3 {
+                    let [_, _, _, a, b] = *shaft.apex[k].coefficients();
+                    let form =
+                        Interval::point(shaft.apex[k].centre()) + Interval::point(a) * x + Interval::point(b) * y;
+                    let rest = (receiver.point[k] - form).magnitude();
+                    let error = shaft.apex[k].error();
+                    assert!(
+                        rest <= error.max(1e-18) * (1.0 + 1e-9) + 1e-15,
+                        "hit ({i}, {j}) lies {rest} off, {error} allowed"
+                    );
+                    if k == 2 {
+                        used = used.max(rest / error);
+                    }
+                }
+            }
+            assert!(used > 0.99, "the remainder {used} is not used up");
+        }
+    }
+
+    #[test]
+    fn hits_of_different_surfaces_or_sides_are_not_fitted() {
+        let mut hits = cap(2, 0.0);
+        hits[3].2.side = Sign::Negative;
+        let placed: Vec<_> = hits.iter().map(|(i, j, r)| (*i, *j, r)).collect();
+        assert!(Shaft::fit(&placed).is_none() && Shaft::fit(&[]).is_none());
+    }
+}
