@@ -14,7 +14,6 @@
 //! [`shaft`] settles whole tiles of hits at once, [`visible`] one hit.
 #![deny(clippy::float_arithmetic)]
 mod occluders;
-#[allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
 mod policy;
 mod rectangle;
 mod shaft;

@@ -1,5 +1,6 @@
 //! Where to cut beams: choices that cost or save time and never touch a proof. The only file of this room with float
 //! arithmetic. The constants were measured on the paper's four scenes.
+#![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
 use crate::geom::Rect;
 use antumbra_interval::Interval;
 

@@ -8,7 +8,6 @@
 mod bisection;
 mod frustum;
 mod piece;
-#[allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
 mod policy;
 mod ray;
 

@@ -1,5 +1,6 @@
 //! Where to cut: choices that cost or save time and never touch a proof. The only file of this room with float
 //! arithmetic.
+#![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
 use crate::geom::Fan;
 use antumbra_interval::Interval;
 
