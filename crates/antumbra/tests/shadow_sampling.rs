@@ -211,6 +211,8 @@ const ODD: [&str; 20] = [
 fn sampling_confirms_odd_surfaces() {
     let mut random = fastrand::Rng::with_seed(2);
     let (mut brackets, mut partly) = (0, 0);
+    let parsed = [Clip::Everywhere, Clip::Box(Box3::cube(1.2))]
+        .map(|clip| ODD.iter().map(|text| Object::parse(text, clip).unwrap()).collect::<Vec<_>>());
     for round in 0..2500 {
         let objects: Vec<Object> = (0..random.usize(1..3))
             .map(|_| {
@@ -219,8 +221,14 @@ fn sampling_confirms_odd_surfaces() {
                     Interval::new(lo, lo + 0.3 + 1.5 * random.f64())
                 };
                 let small = Box3([side(), side(), side()]);
-                let clip = [Clip::Everywhere, Clip::Box(Box3::cube(1.2)), Clip::Box(small)][random.usize(0..3)];
-                Object::parse(ODD[random.usize(0..ODD.len())], clip).unwrap()
+                let which = random.usize(0..3);
+                let formula = random.usize(0..ODD.len());
+                // A region may always be the clip itself: no need to search one for each random box.
+                let small = Clip::Box(small);
+                match which {
+                    0 | 1 => parsed[which][formula].clone(),
+                    _ => Object { clip: small, region: small, ..parsed[0][formula].clone() },
+                }
             })
             .collect();
         let judges: Vec<Judge> = objects.iter().map(Judge::new).collect();

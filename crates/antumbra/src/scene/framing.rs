@@ -33,7 +33,7 @@ const WORK: usize = 400_000_000;
 /// Half the side of the cube that is searched at first.
 const FARTHEST: f64 = (1 << 20) as f64;
 /// Half sizes of a clip box by which its neighbourhood reaches further.
-const NEIGHBOURHOOD: f64 = 30.0;
+const NEIGHBOURHOOD: f64 = 10.0;
 /// Half the side of the part of an open surface that is drawn.
 const OPEN_HALF: f64 = 3.0;
 
@@ -66,7 +66,7 @@ pub fn extent(f: &dyn Inclusion) -> Extent {
 
 /// A region in which every zero of f is known to be inside `clip`: if f has none in a wide neighbourhood, the clip cuts
 /// nothing away there, and that is the region; otherwise it is the clip itself. Proved by a search that gives up after
-/// some 300,000 evaluations.
+/// some 100,000 evaluations.
 #[must_use]
 pub(super) fn region(f: &dyn Inclusion, clip: &Clip) -> Clip {
     let Clip::Box(kept) = *clip else { return *clip };
@@ -78,7 +78,7 @@ pub(super) fn region(f: &dyn Inclusion, clip: &Clip) -> Clip {
         Extent::Open(_) => (wide, wide),
     };
     let mut cells = vec![start];
-    let mut budget = (WORK / (5 * f.operations())).min(100_000);
+    let mut budget = (WORK / (5 * f.operations())).min(60_000);
     while let Some(cell) = cells.pop() {
         if cell.intersection(kept) == Some(cell) {
             continue;
