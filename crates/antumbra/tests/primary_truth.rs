@@ -205,10 +205,17 @@ fn bits(frame: &Frame) -> impl PartialEq + std::fmt::Debug + use<> {
     let f32s = |plane: &[f32]| plane.iter().map(|x| x.to_bits()).collect::<Vec<_>>();
     (
         frame.verdict.clone(),
-        [&frame.t_lo, &frame.t_hi, &frame.visible_lo, &frame.visible_hi, &frame.coverage_lo, &frame.coverage_hi]
-            .map(|p| f64s(p)),
-        [frame.normal.as_flattened(), frame.rgb.as_flattened(), &frame.facing].map(f32s),
-        frame.initial_occluded.clone(),
+        [
+            &frame.t_lo,
+            &frame.t_hi,
+            &frame.lights[0].visible_lo,
+            &frame.lights[0].visible_hi,
+            &frame.coverage_lo,
+            &frame.coverage_hi,
+        ]
+        .map(|p| f64s(p)),
+        [frame.normal.as_flattened(), frame.rgb.as_flattened(), &frame.lights[0].facing].map(f32s),
+        frame.lights[0].initial_occluded.clone(),
         frame.cost.clone(),
     )
 }
@@ -257,7 +264,10 @@ fn poles_and_steps_are_not_surfaces() {
     for index in (0..frame.verdict.len()).filter(|&i| frame.verdict[i] == HIT) {
         let (_, d) = camera_ray(&camera, [24, 24], (index % 24) as f64 + 0.5, (index / 24) as f64 + 0.5);
         let z = camera.eye[2] + frame.t_lo[index] * d[2].hi;
-        assert!((z - scene.floor_height).abs() < 1e-9 && frame.visible_hi[index] == 1.0, "pixel {index}, z = {z}");
+        assert!(
+            (z - scene.floor_height).abs() < 1e-9 && frame.lights[0].visible_hi[index] == 1.0,
+            "pixel {index}, z = {z}"
+        );
         floor += 1;
     }
     assert!(floor > 50, "{floor}");

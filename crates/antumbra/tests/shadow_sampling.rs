@@ -73,18 +73,27 @@ fn found(scene: &Scene, judges: &[Judge], frame: &Frame, index: usize) -> Option
 }
 
 /// The sampler's answer for a proved hit.
-fn sampled(scene: &Scene, judges: &[Judge], frame: &Frame, index: usize, light_scale: f64) -> Option<Shares> {
+fn sampled(
+    scene: &Scene,
+    judges: &[Judge],
+    frame: &Frame,
+    index: usize,
+    light: usize,
+    light_scale: f64,
+) -> Option<Shares> {
     let (own, p, before) = found(scene, judges, frame, index)?;
-    Some(visible(judges, own, &p, before, &scene.light.scaled(light_scale), GRID))
+    Some(visible(judges, own, &p, before, &scene.lights[light].rect.scaled(light_scale), GRID))
 }
 
 /// Of all hits that are said to see the whole light or nothing of it: pixels in which one of five points of the light
 /// says otherwise. Most of these claims are made by shafts, for many pixels at once.
 fn contradicted(scene: &Scene, judges: &[Judge], frame: &Frame, light_scale: f64) -> Vec<usize> {
-    let light = scene.light.scaled(light_scale);
     let mut wrong = Vec::new();
-    for index in (0..SIZE * SIZE).filter(|&i| frame.verdict[i] == 1) {
-        let (lit, dark) = (frame.visible_lo[index] == 1.0, frame.visible_hi[index] == 0.0);
+    let lights = scene.lights.iter().map(|l| l.rect.scaled(light_scale)).zip(&frame.lights);
+    for (index, (light, planes)) in
+        (0..SIZE * SIZE).filter(|&i| frame.verdict[i] == 1).flat_map(|i| lights.clone().map(move |l| (i, l)))
+    {
+        let (lit, dark) = (planes.visible_lo[index] == 1.0, planes.visible_hi[index] == 0.0);
         let Some((own, p, before)) = found(scene, judges, frame, index).filter(|_| lit || dark) else { continue };
         // Not the very corners: what is lit up to a set without area may be tangent there.
         let corners = [[-0.98, -0.98], [0.98, -0.98], [-0.98, 0.98], [0.98, 0.98], [0.0, 0.0]];
@@ -127,14 +136,15 @@ fn check(scenes: Vec<Scene>) -> Tally {
             let hits: Vec<usize> = (0..SIZE * SIZE).filter(|&i| frame.verdict[i] == 1).collect();
             tally.undecided += frame.verdict.iter().filter(|v| (2..=5).contains(*v)).count();
             // Half of them where the light is partly visible, as far as there are such.
-            let (edge, rest): (Vec<usize>, Vec<usize>) =
-                hits.iter().partition(|&&i| frame.visible_hi[i] > 0.0 && frame.visible_lo[i] < 1.0);
-            for k in 0..PIXELS {
+            for (k, (light, planes)) in (0..PIXELS).flat_map(|k| frame.lights.iter().enumerate().map(move |l| (k, l))) {
+                let (edge, rest): (Vec<usize>, Vec<usize>) =
+                    hits.iter().partition(|&&i| planes.visible_hi[i] > 0.0 && planes.visible_lo[i] < 1.0);
                 let from = if k % 2 == 0 && !edge.is_empty() || rest.is_empty() { &edge } else { &rest };
                 let Some(&index) = random.choice(from) else { continue };
-                let (lo, hi) = (frame.visible_lo[index], frame.visible_hi[index]);
-                let what = format!("{name}, light x{light_scale}, floor {floor}, pixel {index}: [{lo}, {hi}]");
-                let Some(shares) = sampled(&scene, &judges, &frame, index, light_scale) else {
+                let (lo, hi) = (planes.visible_lo[index], planes.visible_hi[index]);
+                let what =
+                    format!("{name}, light x{light_scale}, floor {floor}, pixel {index}, light {light}: [{lo}, {hi}]");
+                let Some(shares) = sampled(&scene, &judges, &frame, index, light, light_scale) else {
                     wrong.push(format!("{what}: no hit"));
                     continue;
                 };
@@ -274,8 +284,8 @@ fn wrong_brackets_are_found() {
     let judges = judges(&scene, true);
     let (mut penumbrae, mut found) = (0, 0);
     for index in (0..SIZE * SIZE).filter(|&i| frame.verdict[i] == 1).step_by(5) {
-        let (lo, hi) = (frame.visible_lo[index], frame.visible_hi[index]);
-        let shares = sampled(&scene, &judges, &frame, index, 4.0).unwrap();
+        let (lo, hi) = (frame.lights[0].visible_lo[index], frame.lights[0].visible_hi[index]);
+        let shares = sampled(&scene, &judges, &frame, index, 0, 4.0).unwrap();
         let agree = |lo, hi| shares.agree(lo, hi, slack("sphere"));
         assert!(agree(lo, hi));
         if lo == 1.0 || hi == 0.0 {
@@ -290,5 +300,5 @@ fn wrong_brackets_are_found() {
     let mut moved = frame.clone();
     let index = (0..SIZE * SIZE).find(|&i| frame.verdict[i] == 1).unwrap();
     (moved.t_lo[index], moved.t_hi[index]) = (frame.t_lo[index] + 1e-9, frame.t_hi[index] + 1e-9);
-    assert!(sampled(&scene, &judges, &moved, index, 1.0).is_none());
+    assert!(sampled(&scene, &judges, &moved, index, 0, 1.0).is_none());
 }

@@ -99,7 +99,7 @@ impl Query<'_> {
     /// Whether the beam towards this part of the light may be blocked.
     fn blocked(&self, part: Box3, work: &mut Workspace, cost: &mut Cost) -> bool {
         let beam = Beam::towards(self.point, part);
-        self.world.possibly_blocked(&beam, self.t, self.settings.bisection, work, cost)
+        self.world.possibly_blocked(&beam, self.t, self.settings.bisection.into(), work, cost)
     }
 
     /// How many of the n x n tiles may be blocked, tracing only those for which `wanted(column, row)`.

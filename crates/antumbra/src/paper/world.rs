@@ -1,7 +1,7 @@
 //! What beams can meet: surfaces in their grids, and the floor.
 use crate::eval::Workspace;
 use crate::geom::Beam;
-use crate::trace::{Bisection, Cost, Target, nearest, possibly_blocked};
+use crate::trace::{Cost, Search, Target, nearest, possibly_blocked};
 use antumbra_interval::Interval;
 
 /// Everything that can be hit.
@@ -27,7 +27,7 @@ impl World<'_> {
         &self,
         beam: &Beam,
         t: Interval,
-        search: Bisection,
+        search: Search<'_>,
         work: &mut Workspace,
         cost: &mut Cost,
     ) -> Option<Find> {
@@ -56,7 +56,7 @@ impl World<'_> {
         &self,
         beam: &Beam,
         t: Interval,
-        search: Bisection,
+        search: Search<'_>,
         work: &mut Workspace,
         cost: &mut Cost,
     ) -> bool {

@@ -1,6 +1,6 @@
 //! What is known of the picture so far: the frame, its hits, and the statistics.
 use super::pixel::{Hit, Known, Light, Pixel};
-use super::shade::{self, Point};
+use super::shade::{self, Lamp, Point};
 use super::task::Task;
 use super::{Frame, Method, Stats};
 use crate::verdict::{Reason, Verdict};
@@ -20,7 +20,8 @@ pub(super) struct Book {
 impl Book {
     pub(super) fn new(frame: Frame, method: Method, threads: usize) -> Self {
         let (width, height) = (frame.width, frame.height);
-        let stats = Stats { method: method.name().to_owned(), width, height, threads, ..Stats::default() };
+        let (method, lights) = (method.name().to_owned(), frame.lights.len());
+        let stats = Stats { method, width, height, threads, lights, ..Stats::default() };
         let (hits, primary_cost) = (vec![None; width * height], vec![0; width * height]);
         Self { frame, stats, hits, edges: BTreeMap::new(), primary_cost }
     }
@@ -33,9 +34,11 @@ impl Book {
         self.stats.forget_shadows(method.name());
         for index in 0..self.hits.len() {
             self.frame.cost[index] = self.primary_cost[index];
-            self.frame.initial_occluded[index] = false;
-            if self.hits[index].is_some() {
-                (self.frame.visible_lo[index], self.frame.visible_hi[index]) = (0.0, 1.0);
+            for light in &mut self.frame.lights {
+                light.initial_occluded[index] = false;
+                if self.hits[index].is_some() {
+                    (light.visible_lo[index], light.visible_hi[index]) = (0.0, 1.0);
+                }
             }
         }
     }
@@ -68,29 +71,32 @@ impl Book {
             stats.floor_hits += u64::from(hit.floor);
             (frame.t_lo[index], frame.t_hi[index]) = (hit.t.lo(), hit.t.hi());
             frame.normal[index] = hit.normal.0.map(|c| c as f32);
-            frame.facing[index] = hit.normal.dot((task.light.center - hit.point).normalized()) as f32;
-            // Nothing is known of its light yet.
-            (frame.visible_lo[index], frame.visible_hi[index]) = (0.0, 1.0);
+            for (planes, light) in frame.lights.iter_mut().zip(&task.lights) {
+                planes.facing[index] = hit.normal.dot((light.rect.center - hit.point).normalized()) as f32;
+                // Nothing is known of its light yet.
+                (planes.visible_lo[index], planes.visible_hi[index]) = (0.0, 1.0);
+            }
         }
         self.hits[index] = pixel.hit;
         if let Some(edge) = pixel.edge {
             self.edges.insert(index, edge);
         }
-        self.frame.rgb[index] = self.color(task, index, pixel.hit.as_ref(), 1.0);
+        self.frame.rgb[index] = self.color(task, index, pixel.hit.as_ref(), None);
     }
 
     pub(super) fn put_light(&mut self, task: &Task, light: &Light) {
         let Some(hit) = self.hits[light.index] else { return };
         let (frame, stats, index) = (&mut self.frame, &mut self.stats, light.index);
-        (frame.visible_lo[index], frame.visible_hi[index]) = (light.lo, light.hi);
-        frame.initial_occluded[index] = light.first_occluded;
+        let planes = &mut frame.lights[light.light];
+        (planes.visible_lo[index], planes.visible_hi[index]) = (light.lo, light.hi);
+        planes.initial_occluded[index] = light.first_occluded;
         let class = match (light.lo, light.hi) {
             (1.0, _) => &mut stats.lit,
             (_, 0.0) => &mut stats.dark,
             _ => &mut stats.partly,
         };
         *class += 1;
-        stats.in_shadow_facing += u64::from(light.lo < 1.0 && frame.facing[index] > 0.0);
+        stats.in_shadow_facing += u64::from(light.lo < 1.0 && planes.facing[index] > 0.0);
         stats.initial_occluded += u64::from(light.first_occluded);
         stats.false_alarms += u64::from(light.first_occluded && light.lo == 1.0);
         stats.brackets_open += u64::from(light.reason.is_some());
@@ -100,20 +106,26 @@ impl Book {
         let evaluations = light.initial.evaluations + light.sub.evaluations;
         stats.shadow_evaluations += evaluations;
         frame.cost[index] = frame.cost[index].saturating_add(u32::try_from(evaluations).unwrap_or(u32::MAX));
-        self.frame.rgb[index] = self.color(task, index, Some(&hit), 0.5 * (light.lo + light.hi));
+        self.frame.rgb[index] = self.color(task, index, Some(&hit), Some(index));
     }
 
-    /// Colour of a pixel that shows one hit, or nothing.
-    fn color(&self, task: &Task, index: usize, hit: Option<&Hit>, visible: f64) -> [f32; 3] {
+    /// Colour of a pixel that shows one hit, or nothing. `lit_as` is the pixel whose light it has; before that is known
+    /// it is lit.
+    fn color(&self, task: &Task, index: usize, hit: Option<&Hit>, lit_as: Option<usize>) -> [f32; 3] {
         let (column, row) = (index % task.film.width, index / task.film.width);
         let backdrop = shade::backdrop(&task.film, column as f64 + 0.5, row as f64 + 0.5);
         let Some(hit) = hit else { return backdrop.map(|c| c as f32) };
         // All hits of the paper's methods are undecided; there it would say nothing.
         let touching = task.method == Method::Certified && hit.receiver.is_none() && !self.at_an_edge(task, index);
         let Hit { point: position, normal, outside, floor, .. } = *hit;
-        let point = Point { position, normal, outside, floor, visible, touching };
+        let point = Point { position, normal, outside, floor, touching };
         let eye = task.film.camera.eye;
-        shade::shade(&point, task.light.center, eye, backdrop, task.scene.scale()).map(|c| c as f32)
+        let lights = task.lights.iter().zip(&self.frame.lights).map(|(light, planes)| Lamp {
+            place: light.rect.center,
+            color: light.color,
+            visible: lit_as.map_or(1.0, |at| planes.visible(at)),
+        });
+        shade::shade(&point, lights, eye, backdrop, task.scene.scale()).map(|c| c as f32)
     }
 
     /// Smooth edges: the mean colour of the grid of rays of each pixel that an edge crosses. The light of a ray's hit is
@@ -124,8 +136,8 @@ impl Book {
         for (&index, edge) in &self.edges {
             let mut sum = [0.0_f32; 3];
             for sub in edge {
-                let visible = sub.as_ref().map_or(1.0, |hit| self.light_near(task, index, hit));
-                let color = self.color(task, index, sub.as_ref(), visible);
+                let lit_as = sub.as_ref().and_then(|hit| self.light_near(task, index, hit));
+                let color = self.color(task, index, sub.as_ref(), lit_as);
                 (0..3).for_each(|c| sum[c] += color[c]);
             }
             let mut color = sum.map(|s| s / edge.len() as f32);
@@ -149,16 +161,16 @@ impl Book {
         neighbours(task, index).any(|at| matches!(self.frame.verdict[at], 1 | Frame::PARTLY))
     }
 
-    /// Visible fraction at the known hit nearest to `hit` among a pixel and its neighbours.
-    fn light_near(&self, task: &Task, index: usize, hit: &Hit) -> f64 {
-        let mut best = (f64::INFINITY, 1.0);
+    /// The pixel, among this one and its neighbours, whose hit on the same surface is nearest to `hit`.
+    fn light_near(&self, task: &Task, index: usize, hit: &Hit) -> Option<usize> {
+        let mut best = (f64::INFINITY, None);
         for at in neighbours(task, index) {
             if let Some(other) = &self.hits[at]
-                && other.floor == hit.floor
+                && other.object == hit.object
             {
                 let distance = (other.point - hit.point).length();
                 if distance < best.0 {
-                    best = (distance, 0.5 * (self.frame.visible_lo[at] + self.frame.visible_hi[at]));
+                    best = (distance, Some(at));
                 }
             }
         }

@@ -5,7 +5,8 @@ use crate::eval::Workspace;
 use crate::geom::Vec3;
 use crate::grid::Grid;
 use crate::paper::{Method, World, shadow};
-use crate::trace::{Bisection, Cost, Target};
+use crate::scene::Light as Emitter;
+use crate::trace::{Cost, Search, Target};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
 
@@ -29,7 +30,8 @@ pub(super) fn primary(task: &Task, grids: &[Grid], pixels: impl Iterator<Item = 
             let (column, row) = (index % task.film.width, index / task.film.width);
             let beam = if rays { task.film.ray(column, row) } else { task.film.beam(column, row) };
             let mut cost = Cost::default();
-            let search = Bisection { centred: true, ..task.settings.bisection };
+            let fan = task.film.fan(column..column + 1, row..row + 1);
+            let search = Search { bisection: task.settings.bisection, rays: (!rays).then_some(&fan) };
             let find = world.nearest(&beam, Interval::NON_NEGATIVE, search, &mut work, &mut cost);
             let hit = find.map(|find| task.hit(find.object, &beam, find.t, None, &mut work));
             // A ray that misses proves nothing about the rest of its pixel.
@@ -48,18 +50,23 @@ pub(super) fn shadows(
     hits: impl Iterator<Item = (usize, Vec3)>,
 ) -> Vec<Light> {
     let (world, mut work) = (world(task, grids), Workspace::default());
-    hits.map(|(index, point)| {
-        let found = shadow(&world, &task.settings, method, point, &task.light, index as u64, &mut work);
-        let visible = 1.0 - found.index;
-        Light {
-            index,
-            lo: visible,
-            hi: visible,
-            reason: None,
-            first_occluded: found.initial_occluded,
-            initial: found.initial,
-            sub: found.sub,
-        }
-    })
-    .collect()
+    let lights = || task.lights.iter().enumerate();
+    hits.flat_map(|(index, point)| lights().map(move |(k, light)| (index, point, k, light)))
+        .map(|(index, point, light, Emitter { rect, .. })| {
+            // Other random rays for each light.
+            let salt = index as u64 ^ (light as u64) << 48;
+            let found = shadow(&world, &task.settings, method, point, rect, salt, &mut work);
+            let visible = 1.0 - found.index;
+            Light {
+                index,
+                light,
+                lo: visible,
+                hi: visible,
+                reason: None,
+                first_occluded: found.initial_occluded,
+                initial: found.initial,
+                sub: found.sub,
+            }
+        })
+        .collect()
 }

@@ -144,7 +144,7 @@ impl Primary<'_> {
             let meeting = self.meet(&ray, open, Effort::COARSE, cost);
             meeting.is_some_and(|m| {
                 let corner = self.hit(&ray, &m);
-                corner.normal.dot(centre.normal) > PLAIN_NORMAL && corner.floor == centre.floor
+                corner.normal.dot(centre.normal) > PLAIN_NORMAL && corner.object == centre.object
             })
         })
     }
@@ -207,8 +207,10 @@ pub(super) fn shadows<'a>(
     let mut out = Vec::new();
     // What a shaft costs is booked on the first pixel below it.
     let mut owed = Cost::default();
-    let mut blocks: Vec<(Block, Vec<Piece>)> = vec![((column, row, BLOCK), whole_beam(&surfaces))];
-    while let Some((block, mut pieces)) = blocks.pop() {
+    let start = |light| ((column, row, BLOCK), light, whole_beam(&surfaces));
+    let mut blocks: Vec<(Block, usize, Vec<Piece>)> = (0..task.lights.len()).rev().map(start).collect();
+    while let Some((block, light, mut pieces)) = blocks.pop() {
+        let rect = &task.lights[light].rect;
         let hits: Vec<(usize, &Receiver)> =
             indices(task, block).filter_map(|index| Some((index, receiver_of(index)?))).collect();
         if hits.is_empty() {
@@ -224,7 +226,7 @@ pub(super) fn shadows<'a>(
                 && (side <= 4 || !fit.rough())
             {
                 let mut open = Vec::new();
-                let found = shaft(&surfaces, &fit, &task.light, &pieces, &mut open, &mut stack, &mut work, &mut owed);
+                let found = shaft(&surfaces, &fit, rect, &pieces, &mut open, &mut stack, &mut work, &mut owed);
                 if found != ShaftVerdict::Open {
                     let visible = f64::from(u8::from(found == ShaftVerdict::Lit));
                     for (index, _) in hits {
@@ -232,6 +234,7 @@ pub(super) fn shadows<'a>(
                         let first_occluded = found == ShaftVerdict::Dark;
                         out.push(Light {
                             index,
+                            light,
                             lo: visible,
                             hi: visible,
                             first_occluded,
@@ -247,16 +250,17 @@ pub(super) fn shadows<'a>(
         if side > 2 && hits.len() >= 2 {
             let half = side / 2;
             for (down, right) in [(1, 1), (1, 0), (0, 1), (0, 0)] {
-                blocks.push(((column + right * half, row + down * half, half), pieces.clone()));
+                blocks.push(((column + right * half, row + down * half, half), light, pieces.clone()));
             }
             continue;
         }
         for (index, receiver) in hits {
             let mut cost = Cost::default();
             let bracket =
-                visible(&surfaces, receiver, &task.light, &pieces, task.tolerance, &mut scratch, &mut work, &mut cost);
+                visible(&surfaces, receiver, rect, &pieces, task.tolerance, &mut scratch, &mut work, &mut cost);
             out.push(Light {
                 index,
+                light,
                 lo: bracket.lo,
                 hi: bracket.hi,
                 reason: bracket.reason,

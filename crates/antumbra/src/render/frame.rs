@@ -19,6 +19,22 @@ pub struct Frame {
     pub t_hi: Vec<f64>,
     /// Unit normal, turned to the viewer; 0 where the pixel is empty. Rounded, not certified.
     pub normal: Vec<[f32; 3]>,
+    /// What reaches the pixels of each light of the scene, in its order.
+    pub lights: Vec<LightPlanes>,
+    /// Bounds of the share of the pixel's rays that meet a surface. Certified by the method `certified`; the paper's
+    /// methods know only 0 (proved empty) and "0 to 1".
+    pub coverage_lo: Vec<f64>,
+    /// Upper bound of it.
+    pub coverage_hi: Vec<f64>,
+    /// Evaluations of inclusion functions that the pixel took.
+    pub cost: Vec<u32>,
+    /// Colour, linear, Rec. 709 primaries, about 0 to 1. Not certified.
+    pub rgb: Vec<[f32; 3]>,
+}
+
+/// The planes of one light; elements as in [`Frame`].
+#[derive(Clone, Debug, PartialEq)]
+pub struct LightPlanes {
     /// Lower bound of the visible fraction of the light; NaN where the pixel is empty. The paper's methods give one
     /// number for both bounds: 1 - shadow index.
     pub visible_lo: Vec<f64>,
@@ -26,17 +42,15 @@ pub struct Frame {
     pub visible_hi: Vec<f64>,
     /// Cosine between normal and the direction to the light's centre; 0 where the pixel is empty.
     pub facing: Vec<f32>,
-    /// Bounds of the share of the pixel's rays that meet a surface. Certified by the method `certified`; the paper's
-    /// methods know only 0 (proved empty) and "0 to 1".
-    pub coverage_lo: Vec<f64>,
-    /// Upper bound of it.
-    pub coverage_hi: Vec<f64>,
     /// Whether the first shadow beam, over the whole light, was not found free (paper: "initial beam occluded").
     pub initial_occluded: Vec<bool>,
-    /// Evaluations of inclusion functions that the pixel took.
-    pub cost: Vec<u32>,
-    /// Colour, linear, Rec. 709 primaries, about 0 to 1. Not certified.
-    pub rgb: Vec<[f32; 3]>,
+}
+
+impl LightPlanes {
+    /// Middle of the bracket: what a picture shows.
+    pub(super) fn visible(&self, index: usize) -> f64 {
+        0.5 * (self.visible_lo[index] + self.visible_hi[index])
+    }
 }
 
 impl Frame {
@@ -46,11 +60,11 @@ impl Frame {
     /// The code of a pixel whose centre ray meets nothing while another of its rays meets a surface: both proved.
     pub const PARTLY: u8 = 6;
 
-    /// A frame of unseen pixels.
+    /// A frame of unseen pixels under `lights` lights.
     ///
     /// # Errors
     /// [`Error::Memory`] if it does not fit.
-    pub fn new(width: usize, height: usize) -> Result<Self, Error> {
+    pub fn new(width: usize, height: usize, lights: usize) -> Result<Self, Error> {
         fn plane<T: Clone>(n: usize, value: T) -> Option<Vec<T>> {
             let mut v = Vec::new();
             v.try_reserve_exact(n).ok()?;
@@ -58,6 +72,14 @@ impl Frame {
             Some(v)
         }
         let n = width * height;
+        let light = || {
+            Some(LightPlanes {
+                visible_lo: plane(n, f64::NAN)?,
+                visible_hi: plane(n, f64::NAN)?,
+                facing: plane(n, 0.0)?,
+                initial_occluded: plane(n, false)?,
+            })
+        };
         let make = || {
             Some(Self {
                 width,
@@ -66,17 +88,14 @@ impl Frame {
                 t_lo: plane(n, f64::NAN)?,
                 t_hi: plane(n, f64::NAN)?,
                 normal: plane(n, [0.0; 3])?,
-                visible_lo: plane(n, f64::NAN)?,
-                visible_hi: plane(n, f64::NAN)?,
-                facing: plane(n, 0.0)?,
+                lights: (0..lights).map(|_| light()).collect::<Option<_>>()?,
                 coverage_lo: plane(n, 0.0)?,
                 coverage_hi: plane(n, 1.0)?,
-                initial_occluded: plane(n, false)?,
                 cost: plane(n, 0)?,
                 rgb: plane(n, [0.0; 3])?,
             })
         };
-        make().ok_or(Error::Memory { width, height, bytes: n * 82 })
+        make().ok_or(Error::Memory { width, height, bytes: n * (61 + 21 * lights) })
     }
 
     /// The code of a verdict in the plane [`Frame::verdict`]: 0 no, 1 yes, 2 resolution, 3 touching, 4 domain, 5 budget.

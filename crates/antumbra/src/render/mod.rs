@@ -15,7 +15,7 @@ mod spec;
 mod stats;
 mod task;
 
-pub use frame::Frame;
+pub use frame::{Frame, LightPlanes};
 pub use overlay::Overlay;
 pub use renderer::Renderer;
 pub use spec::{Error, Method, RenderSpec, RunSpec};

@@ -1,5 +1,5 @@
 //! Pictures of what is known: verdicts, shadow classes, cost, widths of brackets; with a legend.
-use super::Frame;
+use super::{Frame, LightPlanes};
 use crate::image::{COLOR_PLANE, Error, Plane, Planes, linear_from_srgb};
 use crate::verdict::{Reason, Verdict};
 use font8x8::UnicodeFonts;
@@ -50,7 +50,8 @@ impl Frame {
             Overlay::Shadow => self.by_shadow(tolerance),
             Overlay::Cost => self.by_scale("evaluations", |i| f64::from(self.cost[i]), |e| format!("{}", 1_u64 << e)),
             Overlay::Width => {
-                let width = |i: usize| (self.visible_hi[i] - self.visible_lo[i]) * 65_536.0;
+                let of = |l: &LightPlanes, i: usize| l.visible_hi[i] - l.visible_lo[i];
+                let width = |i: usize| self.lights.iter().map(|l| of(l, i)).fold(0.0, f64::max) * 65_536.0;
                 self.by_scale("bracket width", width, |e| format!("2^{}", e as i32 - 16))
             }
         };
@@ -96,16 +97,19 @@ impl Frame {
     fn by_shadow(&self, tolerance: f64) -> (Vec<Entry>, Vec<usize>) {
         let entries = [
             ([54, 58, 70], "no surface"),
-            ([250, 236, 180], "lit (all of the light)"),
-            ([214, 96, 60], "penumbra (a part of it)"),
-            ([40, 52, 120], "dark (none of it)"),
+            ([250, 236, 180], "lit (all of each light)"),
+            ([214, 96, 60], "penumbra (a part of them)"),
+            ([40, 52, 120], "dark (none of any)"),
             ([230, 40, 200], "bracket wider than the tolerance"),
         ];
         let kinds = (0..self.verdict.len()).map(|i| {
-            let (lo, hi) = (self.visible_lo[i], self.visible_hi[i]);
+            // Of all the light: the bounds of the least and the most visible light.
+            let lo = self.lights.iter().map(|l| l.visible_lo[i]).fold(f64::NAN, f64::min);
+            let hi = self.lights.iter().map(|l| l.visible_hi[i]).fold(f64::NAN, f64::max);
+            let open = |l: &LightPlanes| l.visible_hi[i] - l.visible_lo[i] > tolerance * (1.0 + 1e-9);
             match (lo, hi) {
                 _ if lo.is_nan() => 0,
-                _ if hi - lo > tolerance * (1.0 + 1e-9) => 4,
+                _ if self.lights.iter().any(open) => 4,
                 (1.0, _) => 1,
                 (_, 0.0) => 3,
                 _ => 2,
@@ -168,10 +172,10 @@ mod tests {
 
     #[test]
     fn every_overlay_has_a_legend_and_colours_by_kind() {
-        let mut frame = Frame::new(200, 3).unwrap();
+        let mut frame = Frame::new(200, 3, 1).unwrap();
         frame.verdict.fill(0);
         frame.verdict[5] = 1;
-        (frame.visible_lo[5], frame.visible_hi[5]) = (0.25, 0.5);
+        (frame.lights[0].visible_lo[5], frame.lights[0].visible_hi[5]) = (0.25, 0.5);
         frame.cost[5] = 1000;
         for (overlay, name) in Overlay::ALL {
             assert_eq!(Overlay::from_name(name), Some(overlay));

@@ -16,7 +16,9 @@ pub(super) struct Hit {
     pub(super) normal: Vec3,
     /// Whether the viewer is on the side where f > 0.
     pub(super) outside: bool,
-    /// Whether it belongs to the floor.
+    /// Index of the surface.
+    pub(super) object: usize,
+    /// Whether that is the floor.
     pub(super) floor: bool,
     /// The proved hit, where it is one.
     pub(super) receiver: Option<Receiver>,
@@ -49,10 +51,12 @@ pub(super) struct Pixel {
     pub(super) cost: Cost,
 }
 
-/// The light of one pixel.
+/// What reaches one pixel of one light.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Light {
     pub(super) index: usize,
+    /// Index of the light.
+    pub(super) light: usize,
     /// Bounds of the visible fraction.
     pub(super) lo: f64,
     pub(super) hi: f64,

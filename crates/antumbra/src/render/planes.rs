@@ -3,7 +3,7 @@ use super::Frame;
 use crate::image::{COLOR_PLANE, Error, Plane, Planes, Rounding, Samples};
 
 impl Frame {
-    /// All planes of the frame under their field names, row 0 at the top: `rgb` and `normal` of shape (rows, columns,
+    /// All planes of the frame under their field names, those of the second light with `_2` appended and so on, row 0 at the top: `rgb` and `normal` of shape (rows, columns,
     /// 3), the others of shape (rows, columns). A bound stays a bound where a file holds only `f32`: `t_lo` and
     /// `visible_lo` are rounded down, `t_hi` and `visible_hi` up. Copies every plane.
     ///
@@ -21,13 +21,17 @@ impl Frame {
         add("t_lo", 1, self.t_lo.clone().into(), Rounding::Down)?;
         add("t_hi", 1, self.t_hi.clone().into(), Rounding::Up)?;
         add("normal", 3, flat(&self.normal).into(), Rounding::Nearest)?;
-        add("visible_lo", 1, self.visible_lo.clone().into(), Rounding::Down)?;
-        add("visible_hi", 1, self.visible_hi.clone().into(), Rounding::Up)?;
-        add("facing", 1, self.facing.clone().into(), Rounding::Nearest)?;
+        for (k, light) in self.lights.iter().enumerate() {
+            // The second light's planes end in _2, and so on.
+            let named = |name: &str| if k == 0 { name.to_owned() } else { format!("{name}_{}", k + 1) };
+            add(&named("visible_lo"), 1, light.visible_lo.clone().into(), Rounding::Down)?;
+            add(&named("visible_hi"), 1, light.visible_hi.clone().into(), Rounding::Up)?;
+            add(&named("facing"), 1, light.facing.clone().into(), Rounding::Nearest)?;
+            let occluded: Vec<u8> = light.initial_occluded.iter().map(|o| u8::from(*o)).collect();
+            add(&named("initial_occluded"), 1, occluded.into(), Rounding::Nearest)?;
+        }
         add("coverage_lo", 1, self.coverage_lo.clone().into(), Rounding::Down)?;
         add("coverage_hi", 1, self.coverage_hi.clone().into(), Rounding::Up)?;
-        let occluded: Vec<u8> = self.initial_occluded.iter().map(|o| u8::from(*o)).collect();
-        add("initial_occluded", 1, occluded.into(), Rounding::Nearest)?;
         add("cost", 1, self.cost.clone().into(), Rounding::Nearest)?;
         Ok(planes)
     }
@@ -39,14 +43,14 @@ mod tests {
 
     #[test]
     fn every_plane_is_there_and_bounds_stay_bounds() {
-        let mut frame = Frame::new(3, 2).unwrap();
+        let mut frame = Frame::new(3, 2, 2).unwrap();
         frame.t_lo[5] = 0.1;
         frame.t_hi[5] = 0.1;
         frame.rgb[4] = [1.0, 2.0, 3.0];
         let planes = frame.planes().unwrap();
         let names: Vec<&str> = planes.iter().map(Plane::name).collect();
-        let wanted =
-            "rgb verdict t_lo t_hi normal visible_lo visible_hi facing coverage_lo coverage_hi initial_occluded cost";
+        let wanted = "rgb verdict t_lo t_hi normal visible_lo visible_hi facing initial_occluded visible_lo_2 visible_hi_2 \
+             facing_2 initial_occluded_2 coverage_lo coverage_hi cost";
         assert_eq!(names, wanted.split(' ').collect::<Vec<_>>());
         let rounding = |name: &str| planes.require(name).unwrap().rounding();
         assert_eq!((rounding("t_lo"), rounding("t_hi")), (Rounding::Down, Rounding::Up));

@@ -40,7 +40,7 @@ impl Renderer {
     /// A spec out of range, no memory, no threads.
     pub fn new(scene: Arc<Scene>, spec: RenderSpec, run: RunSpec) -> Result<Self, Error> {
         spec.validate()?;
-        let frame = Frame::new(spec.width, spec.height)?;
+        let frame = Frame::new(spec.width, spec.height, scene.lights.len())?;
         let pool = rayon::ThreadPoolBuilder::new()
             .num_threads(run.threads.unwrap_or(0))
             .build()

@@ -12,10 +12,19 @@ pub(super) struct Point {
     pub(super) outside: bool,
     /// Whether it belongs to the floor.
     pub(super) floor: bool,
-    /// Fraction of the light that is visible.
-    pub(super) visible: f64,
     /// Whether f seems to touch 0 there without a change of sign: not proved to be a surface.
     pub(super) touching: bool,
+}
+
+/// A light as a point sees it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lamp {
+    /// Its middle.
+    pub(super) place: Vec3,
+    /// Its colour times its strength over pi.
+    pub(super) color: [f64; 3],
+    /// Fraction of it that is visible.
+    pub(super) visible: f64,
 }
 
 /// Outside of a surface: warm clay. Inside: slate blue.
@@ -24,8 +33,6 @@ const INSIDE: [f64; 3] = [0.16, 0.36, 0.50];
 /// What may be a surface: violet, like nothing else.
 const TOUCHING: [f64; 3] = [0.55, 0.20, 0.60];
 const FLOOR: [f64; 3] = [0.62, 0.62, 0.64];
-/// Colour of the light, times its strength over pi.
-const KEY: [f64; 3] = [0.95, 0.92, 0.86];
 /// Fill light from above and from below.
 const SKY: [f64; 3] = [0.20, 0.23, 0.28];
 const GROUND: [f64; 3] = [0.10, 0.09, 0.085];
@@ -38,13 +45,15 @@ pub(super) fn backdrop(film: &Film, column: f64, row: f64) -> [f64; 3] {
     [0.60, 0.63, 0.67].map(|c| c * fall)
 }
 
-/// The colour of a point under a light at `light`, seen from `eye`.
-pub(super) fn shade(p: &Point, light: Vec3, eye: Vec3, backdrop: [f64; 3], scale: f64) -> [f64; 3] {
-    let to_light = (light - p.position).normalized();
+/// The colour of a point under lights, seen from `eye`.
+pub(super) fn shade(
+    p: &Point,
+    lights: impl Iterator<Item = Lamp>,
+    eye: Vec3,
+    backdrop: [f64; 3],
+    scale: f64,
+) -> [f64; 3] {
     let to_eye = (eye - p.position).normalized();
-    let cosine = p.normal.dot(to_light).max(0.0);
-    let half = (to_light + to_eye).normalized();
-    let gloss = if p.floor { 0.0 } else { 0.22 * core_math::pow(p.normal.dot(half).max(0.0), 48.0) };
     let up = 0.5 + 0.5 * p.normal[2];
     let base = match p {
         Point { touching: true, .. } => TOUCHING,
@@ -52,14 +61,22 @@ pub(super) fn shade(p: &Point, light: Vec3, eye: Vec3, backdrop: [f64; 3], scale
         Point { outside: true, .. } => OUTSIDE,
         _ => INSIDE,
     };
-    let color: [f64; 3] = std::array::from_fn(|i| {
+    let mut color: [f64; 3] = std::array::from_fn(|i| {
         let fill = GROUND[i] + (SKY[i] - GROUND[i]) * up;
         // A thin rim of light where the surface turns away gives shape to the shadows.
         let turned = 1.0 - p.normal.dot(to_eye).abs();
         let rim = 0.10 * turned * turned * turned;
-        let gloss = if cosine > 0.0 { gloss } else { 0.0 };
-        base[i] * (p.visible * KEY[i] * cosine + fill) + p.visible * gloss * KEY[i] + rim * SKY[i]
+        base[i] * fill + rim * SKY[i]
     });
+    for light in lights {
+        let to_light = (light.place - p.position).normalized();
+        let cosine = p.normal.dot(to_light);
+        if cosine > 0.0 {
+            let half = (to_light + to_eye).normalized();
+            let gloss = if p.floor { 0.0 } else { 0.22 * core_math::pow(p.normal.dot(half).max(0.0), 48.0) };
+            (0..3).for_each(|i| color[i] += light.visible * light.color[i] * (base[i] * cosine + gloss));
+        }
+    }
     if !p.floor {
         return color;
     }

@@ -31,6 +31,8 @@ pub struct Stats {
     pub undecided_domain: u64,
     /// ... because the permitted work was spent.
     pub undecided_budget: u64,
+    /// Lights. With several, the classes below count every pair of a hit and a light.
+    pub lights: usize,
     /// Hits that see the whole light (certified: proved).
     pub lit: u64,
     /// Hits that see a part of it.

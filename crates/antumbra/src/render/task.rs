@@ -2,22 +2,22 @@
 use super::pixel::Hit;
 use super::spec::{Method, RenderSpec};
 use crate::eval::{Inclusion, Workspace};
-use crate::geom::{Beam, Film, Rect, Vec3};
+use crate::geom::{Beam, Film, Vec3};
 use crate::paper::Settings;
-use crate::scene::{Object, Scene};
+use crate::scene::{Light, Object, Scene};
 use crate::shadow::Tolerance;
 use crate::trace::{Sign, Surface};
 use antumbra_interval::Interval;
 use std::sync::Arc;
 
-/// Scene, film and light of one picture.
+/// Scene, film and lights of one picture.
 pub(super) struct Task {
     pub(super) scene: Arc<Scene>,
     /// The scene's objects; the floor, if it is wanted, is the last.
     pub(super) objects: Vec<Object>,
     pub(super) has_floor: bool,
     pub(super) film: Film,
-    pub(super) light: Rect,
+    pub(super) lights: Vec<Light>,
     pub(super) settings: Settings,
     pub(super) tolerance: Tolerance,
     pub(super) method: Method,
@@ -38,8 +38,9 @@ impl Task {
             seed: spec.seed,
         };
         let tolerance = Tolerance { width: spec.tolerance, rectangles: spec.rectangles };
-        let light = scene.light.scaled(spec.light_scale);
-        Self { scene, objects, has_floor, film, light, settings, tolerance, method: spec.method }
+        let scaled = |light: &Light| Light { rect: light.rect.scaled(spec.light_scale), ..*light };
+        let lights = scene.lights.iter().map(scaled).collect();
+        Self { scene, objects, has_floor, film, lights, settings, tolerance, method: spec.method }
     }
 
     /// The objects as surfaces.
@@ -71,7 +72,7 @@ impl Task {
         }
         let view = beam.direction.mid().normalized();
         let (normal, outside) = oriented_normal(self.objects[object].surface.as_ref(), point, view, before, work);
-        Hit { t, point, normal, outside, floor, receiver: None }
+        Hit { t, point, normal, outside, object, floor, receiver: None }
     }
 }
 

@@ -140,12 +140,13 @@ const BLUE: [f32; 3] = [0.03, 0.12, 0.85];
 /// The picture in grey, with what the initial beams found in colours.
 fn overlay(renderer: &Renderer) -> Tile {
     let frame = renderer.frame();
+    let light = &frame.lights[0];
     let rgb = (0..frame.rgb.len())
         .map(|i| {
             // Rec. 709 luminance.
             let [r, g, b] = frame.rgb[i];
             let grey = 0.2126 * r + 0.7152 * g + 0.0722 * b;
-            match (frame.initial_occluded[i], frame.visible_lo[i] < 1.0, frame.facing[i] > 0.0) {
+            match (light.initial_occluded[i], light.visible_lo[i] < 1.0, light.facing[i] > 0.0) {
                 (true, true, true) => RED,
                 (true, true, false) => DARK_RED,
                 (true, false, _) => BLUE,

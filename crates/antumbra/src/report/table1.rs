@@ -56,14 +56,9 @@ fn find(runs: &mut Runs<'_>, row: &Published) -> Result<Found, Error> {
 }
 
 fn facing_occluded(renderer: &Renderer) -> u64 {
-    let facing = &renderer.frame().facing;
-    renderer
-        .frame()
-        .initial_occluded
-        .iter()
-        .zip(facing)
-        .filter(|(occluded, facing)| **occluded && **facing > 0.0)
-        .count() as u64
+    let light = &renderer.frame().lights[0];
+    light.initial_occluded.iter().zip(&light.facing).filter(|(occluded, facing)| **occluded && **facing > 0.0).count()
+        as u64
 }
 
 fn pixel_table(rows: &[(&Found, &Published)], pixels: u64) -> Table {

@@ -1,5 +1,5 @@
 //! Where is the surface, and from where does one look at it?
-use super::{Object, Scene, View};
+use super::{Light, Object, Scene, View};
 use crate::eval::{Inclusion, Workspace, centred_range};
 use crate::geom::{Box3, Clip, Rect, Vec3};
 use antumbra_interval::Interval;
@@ -132,9 +132,16 @@ pub(super) fn scene(name: String, title: String, object: Object) -> Scene {
     let (centre, half) = (bounds.mid(), bounds.half_extent());
     let radius = half.0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let eye = centre + Vec3::new(3.0, -4.0, 3.0) * radius;
-    let light = Rect::horizontal(centre + Vec3::new(-1.0, -2.0, 6.0) * radius, 0.25 * radius);
+    let light = Light::white(Rect::horizontal(centre + Vec3::new(-1.0, -2.0, 6.0) * radius, 0.25 * radius));
     let view = View { eye, target: centre, fov_deg: angle_over(&bounds, eye, centre) };
-    Scene { name, title, floor_height: bounds[2].lo() - 0.05 * radius, view, light, objects: vec![object] }
+    Scene {
+        name,
+        title,
+        floor_height: bounds[2].lo() - 0.05 * radius,
+        view,
+        lights: vec![light],
+        objects: vec![object],
+    }
 }
 
 /// The full angle, in degrees, that shows the ellipsoid inside the box and a margin. (Corners of the box are mostly empty.)

@@ -1,13 +1,15 @@
 //! What is to be drawn: objects, light, camera, colours; the presets; and a framing for any formula.
 mod framing;
+mod light;
 mod object;
 mod presets;
 
 pub use framing::{Extent, extent};
+pub use light::Light;
 pub use object::{Error, Object};
 pub use presets::{PRESETS, Preset, preset};
 
-use crate::geom::{Box3, Camera, Clip, Rect, Vec3};
+use crate::geom::{Box3, Camera, Clip, Vec3};
 use antumbra_interval::Interval;
 
 /// A scene, complete and valid.
@@ -23,8 +25,8 @@ pub struct Scene {
     pub floor_height: f64,
     /// Where the camera stands and how wide it sees.
     pub view: View,
-    /// The area light.
-    pub light: Rect,
+    /// The area lights; none leaves only the fill light.
+    pub lights: Vec<Light>,
 }
 
 /// Position and angle of the camera.

@@ -1,7 +1,7 @@
 //! The paper's stackless bisection (section 2, "Root Searching").
 use super::Cost;
-use crate::eval::{Inclusion, Workspace, centred_range};
-use crate::geom::{Beam, section};
+use crate::eval::{Inclusion, Workspace};
+use crate::geom::{Beam, Fan, section};
 use antumbra_interval::Interval;
 
 /// How far the bisection goes.
@@ -9,15 +9,28 @@ use antumbra_interval::Interval;
 pub struct Bisection {
     /// Sections narrower than this are not divided further (paper: 1e-5).
     pub width: f64,
-    /// Where the natural extension admits a zero, ask the mean value form too: about three times the cost of an
-    /// evaluation, and much nearer to the united extension that the paper speaks of. Pixel beams need it, or they report
-    /// a rim of pixels around the surface (measured on Chubs: 11 % more hits than the surface has, against 1 %).
-    pub centred: bool,
+}
+
+/// A search and what it may use.
+#[derive(Clone, Copy, Debug)]
+pub struct Search<'a> {
+    /// How far it goes.
+    pub bisection: Bisection,
+    /// The rays of the beam. Where the natural extension over a box admits a zero, the affine form over these rays is asked
+    /// too: it is much nearer to the united extension that the paper speaks of. Pixel beams need it, or they report a rim
+    /// of pixels around the surface (measured on Chubs at 512 x 512: 10 % of the picture, against 1 %).
+    pub rays: Option<&'a Fan>,
+}
+
+impl From<Bisection> for Search<'_> {
+    fn from(bisection: Bisection) -> Self {
+        Self { bisection, rays: None }
+    }
 }
 
 impl Default for Bisection {
     fn default() -> Self {
-        Self { width: 1e-5, centred: false }
+        Self { width: 1e-5 }
     }
 }
 
@@ -34,7 +47,7 @@ pub fn first_section(
     f: &dyn Inclusion,
     beam: &Beam,
     t: Interval,
-    search: Bisection,
+    Search { bisection: Bisection { width }, rays }: Search<'_>,
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Option<Interval> {
@@ -44,17 +57,15 @@ pub fn first_section(
         if !f.range(&region, work).possibly_zero() {
             return false;
         }
-        if !search.centred {
-            return true;
-        }
-        cost.evaluations += 2;
-        centred_range(f, &region, work).possibly_zero()
+        let Some(rays) = rays else { return true };
+        cost.evaluations += 1;
+        f.beam(rays.at(part), work).range().possibly_zero()
     };
     if t.hi() == f64::INFINITY {
         // Unbounded: cannot be halved. Callers clip to a grid, so this is a beam that runs along its cell's plane.
         return admits_zero(t).then_some(t);
     }
-    if t.width() < search.width {
+    if t.width() < width {
         return admits_zero(t).then_some(t);
     }
     // Paper: the process starts with ns = 1 and cs = 1, that is, with the first half.
@@ -62,7 +73,7 @@ pub fn first_section(
     loop {
         let part = section(t, cs, ns);
         if admits_zero(part) {
-            if part.width() < search.width || ns == DEEPEST {
+            if part.width() < width || ns == DEEPEST {
                 return Some(part);
             }
             ns += 1;

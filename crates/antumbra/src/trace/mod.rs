@@ -11,7 +11,7 @@ mod piece;
 mod policy;
 mod ray;
 
-pub use bisection::{Bisection, first_section};
+pub use bisection::{Bisection, Search, first_section};
 pub use frustum::{Known, narrow};
 pub use piece::{Piece, Sign, Surface, certainly_continuous};
 pub use policy::Effort;
@@ -53,7 +53,7 @@ pub fn nearest(
     target: Target<'_>,
     beam: &Beam,
     t: Interval,
-    search: Bisection,
+    search: Search<'_>,
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Option<Interval> {
@@ -85,7 +85,7 @@ pub fn possibly_blocked(
     target: Target<'_>,
     beam: &Beam,
     t: Interval,
-    search: Bisection,
+    search: Search<'_>,
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> bool {

@@ -49,7 +49,7 @@ fn stackless_bisection_finds_what_recursion_finds() {
         let t = Interval::new(r.f64(), 1.0 + r.f64());
         let width = [1e-5, 1e-3, 0.1][r.usize(0..3)];
         let mut cost = Cost::default();
-        let stackless = first_section(&f, &along_x(), t, Bisection { width, centred: false }, &mut work, &mut cost);
+        let stackless = first_section(&f, &along_x(), t, Bisection { width }.into(), &mut work, &mut cost);
         // The paper's search begins with the halves.
         let wanted = recursive(&f, t, 0, 1, width, &mut work).or_else(|| recursive(&f, t, 1, 1, width, &mut work));
         assert_eq!(stackless, wanted, "{text} on {t:?}");
@@ -98,14 +98,14 @@ fn bisection_returns_the_first_section() {
         marked.sort_unstable();
         let first = marked[0];
         let mut cost = Cost::default();
-        let search = Bisection { width: 1.0 / 1000.0, centred: false };
+        let search = Bisection { width: 1.0 / 1000.0 }.into();
         let found = first_section(&Marked(marked), &along_x(), Interval::new(0.0, 1.0), search, &mut work, &mut cost);
         assert_eq!(found, Some(section(Interval::new(0.0, 1.0), first, 10)));
         // At most one rejected sibling on each of the ten levels.
         assert!((10..=20).contains(&cost.evaluations), "{}", cost.evaluations);
     }
     let mut cost = Cost::default();
-    let search = Bisection::default();
+    let search = Bisection::default().into();
     let t = Interval::new(0.0, 1.0);
     assert_eq!(first_section(&Marked(vec![]), &along_x(), t, search, &mut work, &mut cost), None);
     assert_eq!(cost.evaluations, 2, "both halves are rejected at once");

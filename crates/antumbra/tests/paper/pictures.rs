@@ -49,16 +49,16 @@ fn methods_agree_about_the_shadow() {
         let (four, four_stats) = render(scene, "paper-4", 48);
         let (tree, _) = render(scene, "paper-quadtree", 48);
         for i in 0..48 * 48 {
-            let index = |frame: &Frame| frame.visible_lo[i].to_bits();
-            assert_eq!(paper.visible_lo[i].to_bits(), paper.visible_hi[i].to_bits());
-            if fixed.visible_lo[i].is_nan() {
+            let index = |frame: &Frame| frame.lights[0].visible_lo[i].to_bits();
+            assert_eq!(paper.lights[0].visible_lo[i].to_bits(), paper.lights[0].visible_hi[i].to_bits());
+            if fixed.lights[0].visible_lo[i].is_nan() {
                 continue;
             }
             pixels += 1;
             differing += u32::from(index(&fixed) != index(&paper)) + u32::from(index(&fixed) != index(&four));
             // A quadtree has 64 leaves where the others have 49 tiles: shares differ by what a row of tiles makes; by more
             // only where a hit lies right before a cusp, and which beams may be blocked is a matter of rounding.
-            let difference = (fixed.visible_lo[i] - tree.visible_lo[i]).abs();
+            let difference = (fixed.lights[0].visible_lo[i] - tree.lights[0].visible_lo[i]).abs();
             apart += difference;
             far_apart += u32::from(difference > 0.35);
         }
@@ -76,13 +76,16 @@ fn methods_agree_about_the_shadow() {
 
 fn assert_same_bits(a: &Frame, b: &Frame, what: &str) {
     let bits = |plane: &[f64]| plane.iter().map(|v| v.to_bits()).collect::<Vec<_>>();
-    for (x, y) in
-        [(&a.t_lo, &b.t_lo), (&a.t_hi, &b.t_hi), (&a.visible_lo, &b.visible_lo), (&a.visible_hi, &b.visible_hi)]
-    {
+    for (x, y) in [
+        (&a.t_lo, &b.t_lo),
+        (&a.t_hi, &b.t_hi),
+        (&a.lights[0].visible_lo, &b.lights[0].visible_lo),
+        (&a.lights[0].visible_hi, &b.lights[0].visible_hi),
+    ] {
         assert_eq!(bits(x), bits(y), "{what}");
     }
     assert_eq!((&a.verdict, &a.cost), (&b.verdict, &b.cost), "{what}");
-    assert_eq!((&a.rgb, &a.normal, &a.facing), (&b.rgb, &b.normal, &b.facing), "{what}");
+    assert_eq!((&a.rgb, &a.normal, &a.lights[0].facing), (&b.rgb, &b.normal, &b.lights[0].facing), "{what}");
 }
 
 #[test]
