@@ -26,6 +26,7 @@ pub(crate) enum Command {
     Render(RenderArgs),
     Compare(CompareArgs),
     Paper(PaperArgs),
+    Audit(AuditArgs),
     Info,
 }
 
@@ -39,7 +40,7 @@ Examples:
   antumbra render - < formula.txt
 
 Planes have row 0 at the top. The shape of verdict, t_lo, t_hi, visible_lo, visible_hi, \
-coverage_lo, coverage_hi, facing, initial_occluded and cost is (height, width), that of normal and rgb (linear light) is (height, width, 3). t_lo and t_hi are NaN only where the \
+coverage_lo, coverage_hi, facing, initial_occluded and cost is (height, width) (visible_lo_2 and so on belong to a second light), that of normal and rgb (linear light) is (height, width, 3). t_lo and t_hi are NaN only where the \
 pixel is empty.";
 
 /// Render a scene or a formula to a picture.
@@ -72,7 +73,7 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "KIND", value_parser = values::overlay)]
     pub(crate) overlay: Option<Overlay>,
 
-    /// Write every plane as DIR/NAME.npy
+    /// Write every plane as DIR/NAME.npy, and what was drawn as DIR/frame.json
     #[arg(long, value_name = "DIR")]
     pub(crate) planes: Option<PathBuf>,
 
@@ -130,7 +131,7 @@ pub(crate) struct SpecArgs {
     #[arg(long, value_name = "N", default_value = "4000", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) rectangles: u32,
 
-    /// Seed of the random points of rays-mc
+    /// Seed of random choices: the points of rays-mc, the pixels and rays of an audit
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) seed: u64,
 }
@@ -164,6 +165,41 @@ pub(crate) struct CompareArgs {
     pub(crate) spec: SpecArgs,
 
     /// Write the comparison as JSON; `-` is standard output (the table then goes to standard error)
+    #[arg(long, value_name = "FILE")]
+    pub(crate) json: Option<PathBuf>,
+
+    /// No progress bar
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+const AUDIT_EXAMPLES: &str = "\
+Examples:
+  antumbra audit orthocircle --size 256
+  antumbra audit 'x^2 + y^2 + z^2 - 1' --pixels 2000 --seed 7
+  antumbra render chubs --planes chubs && antumbra audit chubs/
+
+A folder's frame is read as it is (options that say what to draw do not apply); everything else is rendered first.";
+
+/// Check the claims of a finished frame again, ray by ray, in high precision.
+///
+/// Random pixels, random rays and random points of the lights, against the formula as it was written, on numbers of 192
+/// bits. A violation is printed and makes the command fail; so no violation is what one expects to see.
+#[derive(Debug, clap::Args)]
+#[command(after_help = format!("{AUDIT_EXAMPLES}\n\n{EXIT_CODES}"))]
+pub(crate) struct AuditArgs {
+    /// A folder that `render --planes` wrote (named with a `/` in it), or a preset, a formula, or `-`
+    #[arg(value_name = "FOLDER-OR-SCENE")]
+    pub(crate) frame: String,
+
+    /// Pixels to look at
+    #[arg(long, value_name = "N", default_value = "1000", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]
+    pub(crate) pixels: u32,
+
+    #[command(flatten)]
+    pub(crate) spec: SpecArgs,
+
+    /// Write the counts as JSON; `-` is standard output (the table then goes to standard error)
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
 

@@ -17,7 +17,7 @@ use antumbra::{
 use anyhow::{Result, anyhow};
 
 use crate::{
-    args::{CompareArgs, PaperArgs, RenderArgs, SpecArgs},
+    args::{AuditArgs, CompareArgs, PaperArgs, RenderArgs, SpecArgs},
     failure::Usage,
     values,
 };
@@ -140,6 +140,43 @@ impl PaperOptions {
     }
 }
 
+/// What `audit` looks at.
+#[derive(Debug)]
+pub(crate) enum Audited {
+    /// A frame in a folder.
+    Folder(PathBuf),
+    /// A scene to be rendered.
+    Scene(NamedScene, RenderSpec),
+}
+
+/// Options of `audit`.
+#[derive(Debug)]
+pub(crate) struct AuditOptions {
+    pub(crate) audited: Audited,
+    pub(crate) pixels: usize,
+    pub(crate) seed: u64,
+    pub(crate) run: RunSpec,
+    pub(crate) json: Option<JsonTarget>,
+    pub(crate) quiet: bool,
+}
+
+impl AuditOptions {
+    /// # Errors
+    /// [`Usage`] where the scene or the formula is not understood.
+    pub(crate) fn new(args: AuditArgs) -> Result<Self> {
+        let (spec, run) = specs(args.spec, Method::Certified);
+        let folder = Path::new(&args.frame);
+        // No formula is the name of a folder, but for very odd folders; a preset may be.
+        let audited = if args.frame.ends_with('/') || (scene::preset(&args.frame).is_none() && folder.is_dir()) {
+            Audited::Folder(folder.to_owned())
+        } else {
+            Audited::Scene(find_scene(&args.frame)?, spec.clone())
+        };
+        let json = args.json.map(json_target);
+        Ok(Self { audited, pixels: args.pixels as usize, seed: spec.seed, run, json, quiet: args.quiet })
+    }
+}
+
 /// Threads that a run will use.
 pub(crate) fn thread_count(run: &RunSpec) -> usize {
     run.threads.or_else(|| thread::available_parallelism().ok().map(Into::into)).unwrap_or(1)
@@ -182,7 +219,7 @@ fn format_of(path: &Path, depth: Depth) -> Result<Format> {
 }
 
 /// A preset if there is one of that name, else a formula; what is neither but looks like a name is a misspelt preset.
-fn find_scene(text: &str) -> Result<NamedScene> {
+pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
     if text == "-" {
         let mut formula = String::new();
         std::io::stdin()

@@ -1,6 +1,7 @@
 //! The heart of Antumbra: from a formula to a certified picture.
 #![forbid(unsafe_code)]
 
+pub mod audit;
 pub mod eval;
 pub mod expr;
 pub mod geom;

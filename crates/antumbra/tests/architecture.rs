@@ -20,6 +20,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("paper", &["eval", "geom", "grid", "trace", "shadow", "verdict"]),
     ("scene", &["eval", "expr", "geom", "tape"]),
     ("render", &["eval", "expr", "geom", "grid", "image", "paper", "scene", "shadow", "tape", "trace", "verdict"]),
+    ("audit", &["eval", "expr", "geom", "render", "scene"]),
     (
         "report",
         &["eval", "expr", "geom", "grid", "image", "paper", "render", "scene", "shadow", "tape", "trace", "verdict"],

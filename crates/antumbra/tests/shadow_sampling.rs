@@ -20,8 +20,8 @@ use antumbra::scene::{Object, PRESETS, Scene, View, preset};
 use antumbra::shadow::{self, Receiver, Scratch, Tolerance, whole_beam};
 use antumbra::trace::{Cost, Sign, Surface};
 use antumbra_interval::Interval;
-use light::{root, sees, visible};
-use sampler::{Judge, Point, Seen, Shares, camera_ray, point};
+use light::{found, root, sees, visible};
+use sampler::{Judge, Point, Seen, Shares, point};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -53,23 +53,6 @@ fn render(scene: &Arc<Scene>, light_scale: f64, floor: bool) -> Frame {
     let mut renderer = Renderer::new(Arc::clone(scene), spec, RunSpec { threads: Some(1) }).unwrap();
     while !renderer.refine(Duration::from_secs(60)) {}
     renderer.frame().clone()
-}
-
-/// A proved hit found again: the surface, the point, the sign of f before it. `None` if the sampler cannot find it, which
-/// is a failure of the hit.
-fn found(scene: &Scene, judges: &[Judge], frame: &Frame, index: usize) -> Option<(usize, Point, f64)> {
-    let (column, row) = ((index % SIZE) as f64 + 0.5, (index / SIZE) as f64 + 0.5);
-    let (eye, direction) = camera_ray(&scene.view.camera(1.0), [SIZE, SIZE], column, row);
-    // The camera's rays and the constants are enclosed there and rounded here: some units in the last place.
-    let wide = 1e-12 * frame.t_hi[index];
-    let ends = [frame.t_lo[index] - wide, frame.t_hi[index] + wide];
-    judges.iter().enumerate().find_map(|(own, judge)| {
-        let [before, behind] = ends.map(|t| judge.sign(&eye, &direction, t));
-        (before * behind < 0.0).then(|| {
-            let t = root(judge, &eye, &direction, ends);
-            (own, std::array::from_fn(|k| eye[k] + direction[k] * t), before)
-        })
-    })
 }
 
 /// The sampler's answer for a proved hit.

@@ -1,8 +1,10 @@
 //! The commands: validated options in, files and text out.
 
+mod audit;
 mod compare;
 mod info;
 mod paper;
+mod record;
 mod render;
 
 use std::time::Duration;
@@ -16,7 +18,7 @@ use serde::Serialize;
 
 use crate::{
     args::{Args, Command},
-    options::{CompareOptions, Format, JsonTarget, PaperOptions, RenderOptions},
+    options::{AuditOptions, CompareOptions, Format, JsonTarget, PaperOptions, RenderOptions},
     output::{self, Sink},
     progress::Progress,
 };
@@ -30,6 +32,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Command::Render(args) => render::run(&RenderOptions::new(args)?),
         Command::Compare(args) => compare::run(&CompareOptions::new(args)?),
         Command::Paper(args) => paper::run(&PaperOptions::new(args)),
+        Command::Audit(args) => audit::run(&AuditOptions::new(args)?),
         Command::Info => info::run(),
     }
 }

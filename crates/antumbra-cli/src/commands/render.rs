@@ -10,7 +10,7 @@ use anyhow::Result;
 use indicatif::HumanCount;
 use serde::Serialize;
 
-use super::{complete, json_sink, json_text, picture_bytes, print_json};
+use super::{complete, json_sink, json_text, picture_bytes, print_json, record::FrameRecord};
 use crate::{
     options::RenderOptions,
     output::{Folder, Sink, finish, remark},
@@ -61,6 +61,11 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         }
     }
     let stats = renderer.stats();
+    if let Some(folder) = &folder {
+        let mut sink = folder.sink(FrameRecord::FILE)?;
+        sink.fill(json_text(&FrameRecord::new(&options.scene.name, &options.spec))?.as_bytes())?;
+        sinks.push(sink);
+    }
     let record = json_text(&Record {
         version: env!("CARGO_PKG_VERSION"),
         scene: &options.scene.name,
@@ -84,7 +89,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
 fn summary(options: &RenderOptions, stats: &Stats) -> String {
     let spec = &options.spec;
     let share = 100.0 * stats.hits as f64 / (spec.width * spec.height) as f64;
-    let planes = options.planes.as_deref().map(|p| format!(" and {}/*.npy", p.display())).unwrap_or_default();
+    let planes = options.planes.as_deref().map(|p| format!(" and {}/*", p.display())).unwrap_or_default();
     format!(
         "{} hits ({share:.2} %): {} lit, {} partly, {} dark; {} shadow beams, {} evaluations; {:.2} s ({:.2} primary, {:.2} shadow)\n\
          wrote {}{planes}: {}x{}, {}, threads: {}",

@@ -6,7 +6,7 @@
 //!
 //! | function | file | content |
 //! |---|---|---|
-//! | [`npy_bytes`] | `.npy` | one plane, element type kept exactly |
+//! | [`npy_bytes`], [`plane_from_npy`] | `.npy` | one plane, element type kept exactly |
 //! | [`png_bytes`] | `.png` | a linear RGB plane through the sRGB transfer, 8 bit dithered or 16 bit |
 //! | [`exr_bytes`] | `.exr` | linear `R`, `G`, `B` and every other plane as channels of their own |
 
@@ -19,7 +19,7 @@ mod png;
 pub use self::{
     color::{code_8, code_16, linear_from_srgb, srgb_from_linear},
     exr::exr_bytes,
-    npy::npy_bytes,
+    npy::{npy_bytes, plane_from_npy},
     plane::{Plane, Planes, Rounding, Samples},
     png::{Depth, png_bytes},
 };
@@ -79,6 +79,14 @@ pub enum Error {
         row: usize,
         /// Column, from the left.
         column: usize,
+    },
+    /// The bytes of a file are not a plane.
+    #[error("plane `{name}` cannot be read: {reason}")]
+    Decode {
+        /// Name of the plane.
+        name: String,
+        /// What is wrong with it.
+        reason: String,
     },
     /// The encoder of the file format refused.
     #[error("cannot encode {format}: {reason}")]

@@ -1,6 +1,6 @@
 //! `.npy`: one plane with its element type and shape, as `numpy.load` reads it.
 
-use npyz::{AutoSerialize, WriteOptions, WriterBuilder};
+use npyz::{AutoSerialize, DType, NpyFile, Order, TypeChar, WriteOptions, WriterBuilder};
 
 use super::{Error, Plane, Samples};
 
@@ -19,6 +19,35 @@ pub fn npy_bytes(plane: &Plane) -> Result<Vec<u8>, Error> {
     }
 }
 
+/// The plane in the bytes of a `.npy` file as [`npy_bytes`] writes it, under the given name.
+///
+/// # Errors
+/// [`Error::Decode`] where the bytes are no such file, and the errors of [`Plane::with_channels`].
+pub fn plane_from_npy(name: &str, bytes: &[u8]) -> Result<Plane, Error> {
+    let refuse = |reason: String| Error::Decode { name: name.to_owned(), reason };
+    let file = NpyFile::new(bytes).map_err(|e| refuse(e.to_string()))?;
+    let shape: Vec<usize> = file.shape().iter().map(|&n| n as usize).collect();
+    let (rows, columns, channels) = match shape[..] {
+        [rows, columns] => (rows, columns, 1),
+        [rows, columns, channels] => (rows, columns, channels),
+        _ => return Err(refuse(format!("its shape is {shape:?}; two or three dimensions are needed"))),
+    };
+    if file.order() != Order::C {
+        return Err(refuse("its order is not C".to_owned()));
+    }
+    let DType::Plain(kind) = file.dtype() else { return Err(refuse("its elements are not numbers".to_owned())) };
+    let samples = match (kind.type_char(), kind.size_field()) {
+        (TypeChar::Float, 8) => file.into_vec::<f64>().map(Samples::F64),
+        (TypeChar::Float, 4) => file.into_vec::<f32>().map(Samples::F32),
+        (TypeChar::Uint, 8) => file.into_vec::<u64>().map(Samples::U64),
+        (TypeChar::Uint, 4) => file.into_vec::<u32>().map(Samples::U32),
+        (TypeChar::Uint, 2) => file.into_vec::<u16>().map(Samples::U16),
+        (TypeChar::Uint, 1) => file.into_vec::<u8>().map(Samples::U8),
+        _ => return Err(refuse(format!("elements of type {kind} are not used here"))),
+    };
+    Plane::with_channels(name, rows, columns, channels, samples.map_err(|e| refuse(e.to_string()))?)
+}
+
 fn write<T: AutoSerialize + Copy>(plane: &Plane, values: &[T]) -> Result<Vec<u8>, Error> {
     let shape: Vec<u64> = plane.shape().iter().map(|&n| n as u64).collect();
     let mut bytes = Vec::with_capacity(256 + size_of_val(values));
@@ -34,7 +63,6 @@ fn write<T: AutoSerialize + Copy>(plane: &Plane, values: &[T]) -> Result<Vec<u8>
 #[cfg(test)]
 mod tests {
     use super::*;
-    use npyz::NpyFile;
 
     #[test]
     fn what_is_written_is_read_back() {
@@ -43,8 +71,14 @@ mod tests {
         let bytes = npy_bytes(&plane).unwrap();
         let file = NpyFile::new(&bytes[..]).unwrap();
         assert_eq!(file.shape(), [2, 5, 3]);
-        assert_eq!(file.order(), npyz::Order::C);
+        assert_eq!(file.order(), Order::C);
         assert_eq!(file.into_vec::<f64>().unwrap(), normal);
+
+        assert_eq!(plane_from_npy("normal", &bytes).unwrap(), plane);
+        for cut in [0, 5, bytes.len() - 1] {
+            let error = plane_from_npy("normal", &bytes[..cut]).unwrap_err();
+            assert!(matches!(error, Error::Decode { .. }), "{cut}: {error}");
+        }
 
         let verdict = Plane::new("verdict", 2, 2, vec![0u8, 1, 2, 255]).unwrap();
         let bytes = npy_bytes(&verdict).unwrap();

@@ -98,7 +98,9 @@ impl Book {
         *class += 1;
         stats.in_shadow_facing += u64::from(light.lo < 1.0 && planes.facing[index] > 0.0);
         stats.initial_occluded += u64::from(light.first_occluded);
-        stats.false_alarms += u64::from(light.first_occluded && light.lo == 1.0);
+        // Lit as far as anybody wanted to know.
+        let lit = light.hi == 1.0 && light.lo >= 1.0 - task.tolerance.width;
+        stats.false_alarms += u64::from(light.first_occluded && lit);
         stats.brackets_open += u64::from(light.reason.is_some());
         stats.bracket_width_max = stats.bracket_width_max.max(light.hi - light.lo);
         stats.initial_beams += light.initial.beams;

@@ -12,8 +12,9 @@ pub struct Frame {
     /// What is known of the pixel: 0 proved empty, 1 proved hit (of the centre ray), 2 to 5 undecided
     /// ([`Frame::verdict_code`]), [`Frame::PARTLY`], or [`Frame::UNSEEN`].
     pub verdict: Vec<u8>,
-    /// No ray of the pixel meets anything before this parameter (distance along the view axis from the eye); NaN where
-    /// the pixel is empty.
+    /// The ray of which the verdict speaks (the centre ray, for [`Frame::PARTLY`] another one) meets nothing before this
+    /// parameter (distance along the view axis from the eye); NaN where the pixel is empty. The paper's methods: no ray
+    /// of the pixel does.
     pub t_lo: Vec<f64>,
     /// The meeting, if it is one, begins at or before this parameter; NaN where the pixel is empty.
     pub t_hi: Vec<f64>,

@@ -41,10 +41,7 @@ impl Renderer {
     pub fn new(scene: Arc<Scene>, spec: RenderSpec, run: RunSpec) -> Result<Self, Error> {
         spec.validate()?;
         let frame = Frame::new(spec.width, spec.height, scene.lights.len())?;
-        let pool = rayon::ThreadPoolBuilder::new()
-            .num_threads(run.threads.unwrap_or(0))
-            .build()
-            .map_err(|e| Error::Threads(e.to_string()))?;
+        let pool = run.pool()?;
         let task = Task::new(scene, &spec);
         let book = Book::new(frame, spec.method, pool.current_num_threads());
         let stage = Stage::Grid;

@@ -106,6 +106,17 @@ pub struct RunSpec {
     pub threads: Option<usize>,
 }
 
+impl RunSpec {
+    /// The threads.
+    ///
+    /// # Errors
+    /// [`Error::Threads`].
+    pub(crate) fn pool(self) -> Result<rayon::ThreadPool, Error> {
+        let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
+        builder.build().map_err(|e| Error::Threads(e.to_string()))
+    }
+}
+
 /// Why a picture cannot be begun.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Error {

@@ -47,7 +47,7 @@ pub struct Stats {
     pub in_shadow_facing: u64,
     /// Hits whose initial shadow beam may be blocked (paper: "initial beams occluded").
     pub initial_occluded: u64,
-    /// Of these, hits that turned out fully lit: false alarms of the first beam.
+    /// Of these, hits that turned out fully lit, up to the tolerance: false alarms of the first beam.
     pub false_alarms: u64,
     /// Pixel beams (or rays); certified: frusta.
     pub pixel_beams: u64,

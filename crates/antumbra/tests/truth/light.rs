@@ -1,7 +1,27 @@
 //! A hit found again, and its light by sampling.
 use super::double::Double;
-use super::sampler::{Judge, Point, Seen, Shares};
+use super::sampler::{Judge, Point, Seen, Shares, camera_ray};
 use antumbra::geom::Rect;
+use antumbra::render::Frame;
+use antumbra::scene::Scene;
+
+/// A proved hit found again: the surface, the point, the sign of f before it. `None` if the sampler cannot find it, which
+/// is a failure of the hit.
+pub(crate) fn found(scene: &Scene, judges: &[Judge], frame: &Frame, index: usize) -> Option<(usize, Point, f64)> {
+    let (column, row) = ((index % frame.width) as f64 + 0.5, (index / frame.width) as f64 + 0.5);
+    let camera = scene.view.camera(frame.width as f64 / frame.height as f64);
+    let (eye, direction) = camera_ray(&camera, [frame.width, frame.height], column, row);
+    // The camera's rays and the constants are enclosed there and rounded here: some units in the last place.
+    let wide = 1e-12 * frame.t_hi[index];
+    let ends = [frame.t_lo[index] - wide, frame.t_hi[index] + wide];
+    judges.iter().enumerate().find_map(|(own, judge)| {
+        let [before, behind] = ends.map(|t| judge.sign(&eye, &direction, t));
+        (before * behind < 0.0).then(|| {
+            let t = root(judge, &eye, &direction, ends);
+            (own, std::array::from_fn(|k| eye[k] + direction[k] * t), before)
+        })
+    })
+}
 
 /// The root on `p + t d` between two parameters at which f has opposite signs.
 pub(crate) fn root(judge: &Judge, p: &Point, d: &Point, [lo, hi]: [f64; 2]) -> Double {
