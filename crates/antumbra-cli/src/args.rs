@@ -1,6 +1,6 @@
 //! The command line as clap reads it. Nothing happens here.
 
-use std::path::PathBuf;
+use std::{path::PathBuf, time::Duration};
 
 use antumbra::{
     render::{Method, Overlay, RenderSpec},
@@ -68,6 +68,10 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) spec: SpecArgs,
+
+    /// Give up after so many seconds of rendering, with an error and no picture
+    #[arg(long, value_name = "SECONDS", value_parser = values::budget, allow_negative_numbers = true)]
+    pub(crate) budget: Option<Duration>,
 
     /// Draw what is known instead of the surface, with a legend: verdict, shadow, cost or width (of the brackets)
     #[arg(long, value_name = "KIND", value_parser = values::overlay)]
@@ -164,6 +168,10 @@ pub(crate) struct CompareArgs {
     #[command(flatten)]
     pub(crate) spec: SpecArgs,
 
+    /// Give up after so many seconds of rendering, with an error and no picture
+    #[arg(long, value_name = "SECONDS", value_parser = values::budget, allow_negative_numbers = true)]
+    pub(crate) budget: Option<Duration>,
+
     /// Write the comparison as JSON; `-` is standard output (the table then goes to standard error)
     #[arg(long, value_name = "FILE")]
     pub(crate) json: Option<PathBuf>,
@@ -198,6 +206,10 @@ pub(crate) struct AuditArgs {
 
     #[command(flatten)]
     pub(crate) spec: SpecArgs,
+
+    /// Give up after so many seconds of rendering, with an error and no picture
+    #[arg(long, value_name = "SECONDS", value_parser = values::budget, allow_negative_numbers = true)]
+    pub(crate) budget: Option<Duration>,
 
     /// Write the counts as JSON; `-` is standard output (the table then goes to standard error)
     #[arg(long, value_name = "FILE")]

@@ -5,6 +5,7 @@ use std::{
     path::{Path, PathBuf},
     sync::Arc,
     thread,
+    time::Duration,
 };
 
 use antumbra::{
@@ -60,6 +61,8 @@ pub(crate) struct RenderOptions {
     pub(crate) overlay: Option<Overlay>,
     pub(crate) planes: Option<PathBuf>,
     pub(crate) json: Option<JsonTarget>,
+    /// Time after which to give up.
+    pub(crate) budget: Option<Duration>,
     pub(crate) quiet: bool,
 }
 
@@ -73,6 +76,8 @@ pub(crate) struct CompareOptions {
     pub(crate) methods: Vec<Method>,
     pub(crate) run: RunSpec,
     pub(crate) json: Option<JsonTarget>,
+    /// Time after which to give up.
+    pub(crate) budget: Option<Duration>,
     pub(crate) quiet: bool,
 }
 
@@ -108,6 +113,7 @@ impl RenderOptions {
             overlay: args.overlay,
             planes: args.planes,
             json,
+            budget: args.budget,
             quiet: args.quiet,
         })
     }
@@ -127,7 +133,15 @@ impl CompareOptions {
         };
         let (spec, run) = specs(args.spec, first);
         let scene = find_scene(&args.scene)?;
-        Ok(Self { scene, spec, methods: args.methods, run, json: args.json.map(json_target), quiet: args.quiet })
+        Ok(Self {
+            scene,
+            spec,
+            methods: args.methods,
+            run,
+            json: args.json.map(json_target),
+            budget: args.budget,
+            quiet: args.quiet,
+        })
     }
 }
 
@@ -157,6 +171,8 @@ pub(crate) struct AuditOptions {
     pub(crate) seed: u64,
     pub(crate) run: RunSpec,
     pub(crate) json: Option<JsonTarget>,
+    /// Time after which to give up.
+    pub(crate) budget: Option<Duration>,
     pub(crate) quiet: bool,
 }
 
@@ -173,7 +189,15 @@ impl AuditOptions {
             Audited::Scene(find_scene(&args.frame)?, spec.clone())
         };
         let json = args.json.map(json_target);
-        Ok(Self { audited, pixels: args.pixels as usize, seed: spec.seed, run, json, quiet: args.quiet })
+        Ok(Self {
+            audited,
+            pixels: args.pixels as usize,
+            seed: spec.seed,
+            run,
+            json,
+            budget: args.budget,
+            quiet: args.quiet,
+        })
     }
 }
 

@@ -1,5 +1,7 @@
 //! Values of options, from text. Each function says what it accepts when it refuses.
 
+use std::time::Duration;
+
 use antumbra::{
     render::{Method, Overlay},
     report::Exhibit,
@@ -51,6 +53,12 @@ fn whole(text: &str, lo: usize, hi: usize) -> Result<usize, String> {
 /// Threads, 1 or more.
 pub(crate) fn threads(text: &str) -> Result<usize, String> {
     whole(text, 1, 1024).map_err(|e| format!("{e}, or leave it out to use every processor"))
+}
+
+/// A time in seconds, more than 0.
+pub(crate) fn budget(text: &str) -> Result<Duration, String> {
+    let seconds = text.parse::<f64>().ok().filter(|s| *s > 0.0).and_then(|s| Duration::try_from_secs_f64(s).ok());
+    seconds.ok_or_else(|| "give a number of seconds greater than 0, such as 60 or 0.5".to_owned())
 }
 
 /// Cells of the grid along each axis.

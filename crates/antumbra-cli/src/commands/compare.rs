@@ -78,7 +78,7 @@ pub(super) fn run(options: &CompareOptions) -> Result<()> {
         let progress = Progress::new(options.quiet, method.name());
         // For the first method, which has not begun, this changes nothing.
         renderer.restart_shadows(*method);
-        complete(&mut renderer, &progress);
+        complete(&mut renderer, options.budget, &progress)?;
         rows.push(Row::new(method.name(), &renderer.stats()));
     }
     rows.sort_by_key(|row| options.methods.iter().position(|method| method.name() == row.method));

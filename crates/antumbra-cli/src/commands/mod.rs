@@ -7,13 +7,13 @@ mod paper;
 mod record;
 mod render;
 
-use std::time::Duration;
+use std::time::{Duration, Instant};
 
 use antumbra::{
     image::{COLOR_PLANE, Planes, exr_bytes, png_bytes},
     render::Renderer,
 };
-use anyhow::Result;
+use anyhow::{Result, bail};
 use serde::Serialize;
 
 use crate::{
@@ -41,10 +41,22 @@ pub(crate) fn run(args: Args) -> Result<()> {
 const SLICE: Duration = Duration::from_millis(100);
 
 /// Renders to the end under a progress bar.
-fn complete(renderer: &mut Renderer, progress: &Progress) {
+///
+/// # Errors
+/// Where that takes longer than the budget.
+fn complete(renderer: &mut Renderer, budget: Option<Duration>, progress: &Progress) -> Result<()> {
+    let begin = Instant::now();
     while !renderer.refine(SLICE) {
         progress.set(renderer.progress());
+        if let Some(budget) = budget.filter(|budget| begin.elapsed() > *budget) {
+            let (seconds, share) = (budget.as_secs_f64(), 100.0 * renderer.progress());
+            bail!(
+                "the budget of {seconds} s is spent and about {share:.0} % of the picture is done; nothing was written: \
+                 allow more with --budget, or ask for less with --size, --tolerance or --rectangles"
+            );
+        }
     }
+    Ok(())
 }
 
 /// The bytes of a picture file.

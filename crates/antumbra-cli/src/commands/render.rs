@@ -46,7 +46,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
 
     let progress = Progress::new(options.quiet, options.spec.method.name());
     let mut renderer = Renderer::new(Arc::clone(&options.scene.scene), options.spec.clone(), options.run)?;
-    complete(&mut renderer, &progress);
+    complete(&mut renderer, options.budget, &progress)?;
     drop(progress);
 
     let planes = renderer.frame().planes()?;
