@@ -216,11 +216,10 @@ fn sampling_confirms_odd_surfaces() {
                 let small = Box3([side(), side(), side()]);
                 let which = random.usize(0..3);
                 let formula = random.usize(0..ODD.len());
-                // A region may always be the clip itself: no need to search one for each random box.
                 let small = Clip::Box(small);
                 match which {
                     0 | 1 => parsed[which][formula].clone(),
-                    _ => Object { clip: small, region: small, ..parsed[0][formula].clone() },
+                    _ => parsed[0][formula].clone().with_clip(small),
                 }
             })
             .collect();
@@ -237,8 +236,10 @@ fn sampling_confirms_odd_surfaces() {
         let t = root(&judges[own], &eye, &direction, ends);
         let hit: Point = std::array::from_fn(|k| eye[k] + direction[k] * t);
         let light = Rect { center: vector(2.5), edge_u: vector(0.8), edge_v: vector(0.8) };
-        let surfaces: Vec<Surface<'_>> =
-            objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip, region: o.region }).collect();
+        let surfaces: Vec<Surface<'_>> = objects
+            .iter()
+            .map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() })
+            .collect();
         let receiver = Receiver {
             point: Box3(hit.map(|x| Interval::new(x.hi - 1e-14, x.hi + 1e-14))),
             surface: own,

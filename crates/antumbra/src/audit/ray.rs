@@ -73,7 +73,7 @@ impl Judge {
     /// # Errors
     /// Where the formula is none.
     pub(super) fn new(object: &Object, s: &mut Scratch) -> Result<Self, expr::Error> {
-        Ok(Self { formula: Precise::parse(&object.text, s)?, clip: object.clip })
+        Ok(Self { formula: Precise::parse(&object.text, s)?, clip: object.clip() })
     }
 
     /// Parameters at which the ray is inside the clip, rounded.

@@ -42,8 +42,8 @@ impl Beam {
         } else if n.certainly_negative() {
             n / d.intersection(-POSITIVE)
         } else {
-            // 0 is in n: t = 0 is a solution, and where d holds 0 every t is.
-            n / d
+            // 0 is in n: t = 0 is a solution, and where d holds 0 every t is, though no quotient says so.
+            if d.possibly_zero() { POSITIVE } else { n / d }
         };
         quotient.intersection(POSITIVE)
     }
@@ -101,6 +101,13 @@ mod tests {
         assert!(t.contains(2.0) && t.contains(3.0) && t.width() < 1.000_001);
         assert!(beam.parameters_in(1, Interval::new(-3.0, -2.0)).is_empty(), "behind the origin");
         assert!(beam.parameters_in(2, Interval::new(1.0, 2.0)).is_empty(), "never leaves z = 0");
+        for range in [Interval::new(-1.0, 2.0), Interval::new(0.0, 2.0), Interval::ZERO] {
+            assert_eq!(
+                beam.parameters_in(2, range),
+                Interval::NON_NEGATIVE,
+                "never leaves z = 0, which is in the range"
+            );
+        }
     }
 
     #[test]

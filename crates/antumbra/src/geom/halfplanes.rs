@@ -91,7 +91,8 @@ fn inner_area(s: &mut Scratch) -> f64 {
     for p in s.bounds.iter().filter(|p| steep(**p)) {
         let c = sub_down(p.c, p.b.abs());
         if p.a == 0.0 {
-            if c < 0.0 {
+            // A form that is 0 everywhere has no visible point. (Others vanish on sets without area.)
+            if c <= 0.0 {
                 return 0.0;
             }
         } else if p.a > 0.0 {
@@ -282,6 +283,14 @@ mod tests {
             got.open,
             open.to_f64()
         );
+    }
+
+    #[test]
+    fn a_form_that_is_zero_everywhere_is_not_visible() {
+        let zero = HalfPlane { k: 0.0, a: 0.0, b: 0.0, e: 0.0, hides: true };
+        assert_eq!(shares(&[zero], &mut Scratch::default()).lit, 0.0);
+        let above = HalfPlane { k: 1e-300, ..zero };
+        assert!(shares(&[above], &mut Scratch::default()).lit > 0.999);
     }
 
     #[test]

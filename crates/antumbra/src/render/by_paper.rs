@@ -13,7 +13,7 @@ use antumbra_interval::Interval;
 /// The grids of all objects but the floor, which needs none.
 pub(super) fn grids(task: &Task, n: usize) -> Vec<Grid> {
     let objects = &task.objects[..task.objects.len() - usize::from(task.has_floor)];
-    objects.iter().map(|o| Grid::build(o.surface.as_ref(), o.clip.bounds(), n)).collect()
+    objects.iter().map(|o| Grid::build(o.surface.as_ref(), o.clip().bounds(), n)).collect()
 }
 
 fn world<'a>(task: &'a Task, grids: &'a [Grid]) -> World<'a> {

@@ -102,6 +102,9 @@ impl Primary<'_> {
             Some(Meeting { reason: Some(reason), .. }) => Known::Undecided(reason),
             None => Known::Undecided(Reason::Resolution),
         };
+        if known == Known::Undecided(Reason::Budget) {
+            return Pixel { index, known, coverage: [0.0, 1.0], hit, edge: None, cost };
+        }
         let covered = open.certainly_covered();
         if covered && open.open.len() == 1 && known == Known::Hit {
             return Pixel { index, known, coverage: [1.0; 2], hit, edge: None, cost };
@@ -109,6 +112,7 @@ impl Primary<'_> {
         // An edge, or something thin: how much of the pixel is covered, and by what?
         let window = self.task.film.window(column..column + 1, row..row + 1);
         let coverage = if covered { [1.0; 2] } else { self.coverage(window, open, COVERAGE_LEVELS, &mut cost) };
+        let coverage = outward(coverage);
         if coverage[1] == 0.0 {
             return Pixel { index, known: Known::Empty, coverage, hit: None, edge: None, cost };
         }
@@ -162,7 +166,7 @@ impl Primary<'_> {
         Hit { receiver, ..hit }
     }
 
-    /// Bounds of the covered share of a window of the film. The shares are multiples of 4^-levels: exact.
+    /// Bounds of the covered share of a window of the film, as if its parts were exact quarters: see [`outward`].
     fn coverage(&mut self, window: [Interval; 2], parent: &Open, levels: u32, cost: &mut Cost) -> [f64; 2] {
         let ([left, right], [below, above]) = (halves(window[0]), halves(window[1]));
         let quarters = [[left, below], [right, below], [left, above], [right, above]];
@@ -187,6 +191,14 @@ impl Primary<'_> {
         }
         sum
     }
+}
+
+/// Bounds of a share of a pixel, for parts that are quarters only up to rounding: film coordinates, in `[-1, 1]`, are known
+/// up to 2^-50; a pixel has at least the side 2^-15, so two edges move a share by less than 2 * 2 * 2^-35 < 1e-9. All and
+/// nothing are exact, whatever the parts are.
+fn outward([lo, hi]: [f64; 2]) -> [f64; 2] {
+    const ROUNDING: f64 = 1e-9;
+    [if lo < 1.0 { (lo - ROUNDING).max(0.0) } else { lo }, if hi > 0.0 { (hi + ROUNDING).min(1.0) } else { hi }]
 }
 
 /// The two halves of an interval; they share their edge.

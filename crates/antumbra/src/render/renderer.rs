@@ -42,7 +42,7 @@ impl Renderer {
         spec.validate()?;
         let frame = Frame::new(spec.width, spec.height, scene.lights.len())?;
         let pool = run.pool()?;
-        let task = Task::new(scene, &spec);
+        let task = Task::new(scene, &spec)?;
         let book = Book::new(frame, spec.method, pool.current_num_threads());
         let stage = Stage::Grid;
         Ok(Self { task, grid_cells: spec.grid, pool, grids: Vec::new(), book, stage, next_tile: 0 })

@@ -1,6 +1,6 @@
 //! One picture as the passes see it: everything that does not change while it is drawn.
 use super::pixel::Hit;
-use super::spec::{Method, RenderSpec};
+use super::spec::{Error, Method, RenderSpec};
 use crate::eval::{Inclusion, Workspace};
 use crate::geom::{Beam, Film, Vec3};
 use crate::paper::Settings;
@@ -24,11 +24,19 @@ pub(super) struct Task {
 }
 
 impl Task {
-    pub(super) fn new(scene: Arc<Scene>, spec: &RenderSpec) -> Self {
+    /// # Errors
+    /// Where the scene's floor has no height.
+    pub(super) fn new(scene: Arc<Scene>, spec: &RenderSpec) -> Result<Self, Error> {
         let (width, height) = (spec.width, spec.height);
         let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
         let mut objects = scene.objects.clone();
-        let floor = spec.floor.then(|| scene.floor().ok()).flatten();
+        let floor = if spec.floor {
+            let value = scene.floor_height.to_string();
+            let bad = |_| Error::OutOfRange { what: "the height of the floor", range: "finite", value };
+            Some(scene.floor().map_err(bad)?)
+        } else {
+            None
+        };
         let has_floor = floor.is_some();
         objects.extend(floor);
         let settings = Settings {
@@ -40,12 +48,15 @@ impl Task {
         let tolerance = Tolerance { width: spec.tolerance, rectangles: spec.rectangles };
         let scaled = |light: &Light| Light { rect: light.rect.scaled(spec.light_scale), ..*light };
         let lights = scene.lights.iter().map(scaled).collect();
-        Self { scene, objects, has_floor, film, lights, settings, tolerance, method: spec.method }
+        Ok(Self { scene, objects, has_floor, film, lights, settings, tolerance, method: spec.method })
     }
 
     /// The objects as surfaces.
     pub(super) fn surfaces(&self) -> Vec<Surface<'_>> {
-        self.objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip, region: o.region }).collect()
+        self.objects
+            .iter()
+            .map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() })
+            .collect()
     }
 
     /// Index of the floor among the objects.

@@ -128,7 +128,7 @@ fn hull_of_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace) -> Optio
 /// A scene around one object: the camera sees its clip box from the front, a little to the right and above; a square
 /// light of a tenth of the picture's width (paper, section 4) hangs above, to the left.
 pub(super) fn scene(name: String, title: String, object: Object) -> Scene {
-    let bounds = object.clip.bounds();
+    let bounds = object.clip().bounds();
     let (centre, half) = (bounds.mid(), bounds.half_extent());
     let radius = half.0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let eye = centre + Vec3::new(3.0, -4.0, 3.0) * radius;

@@ -54,17 +54,16 @@ impl Scene {
     /// # Errors
     /// The formula's own errors, with the place in the text.
     pub fn from_formula(text: &str) -> Result<Self, Error> {
-        let mut object = Object::parse(text, Clip::Everywhere)?;
+        let object = Object::parse(text, Clip::Everywhere)?;
         let found = extent(object.surface.as_ref());
-        object.clip = Clip::Box(found.clip());
-        object.region = framing::region(object.surface.as_ref(), &object.clip);
+        let object = object.with_clip(Clip::Box(found.clip()));
         Ok(framing::scene(text.trim().to_owned(), "Formula".to_owned(), object))
     }
 
     /// Half the largest edge of the box that holds all objects: the scale of the scene.
     #[must_use]
     pub fn scale(&self) -> f64 {
-        let hull = self.objects.iter().map(|o| o.clip.bounds()).reduce(Box3::hull);
+        let hull = self.objects.iter().map(|o| o.clip().bounds()).reduce(Box3::hull);
         hull.map_or(1.0, |b| b.half_extent().0.into_iter().fold(0.0, f64::max))
     }
 

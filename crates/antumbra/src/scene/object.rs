@@ -12,10 +12,9 @@ pub struct Object {
     pub text: String,
     /// Its zero set's function, rewritten so that it changes sign where it can.
     pub surface: Arc<dyn Inclusion>,
-    /// The surface exists only in here, and ends at its border.
-    pub clip: Clip,
-    /// Every zero of the function in here is inside the clip: larger than it if the clip cuts nothing away.
-    pub region: Clip,
+    // Together, so that no clip is ever paired with the region of another.
+    clip: Clip,
+    region: Clip,
 }
 
 impl std::fmt::Debug for Object {
@@ -43,7 +42,26 @@ impl Object {
     pub fn parse(text: &str, clip: Clip) -> Result<Self, Error> {
         let formula = Formula::parse(text)?;
         let tape = Tape::compile(&formula.surface().formula().repeated_squares())?;
-        let region = super::framing::region(&tape, &clip);
-        Ok(Self { text: text.to_owned(), surface: Arc::new(tape), clip, region })
+        Ok(Self { text: text.to_owned(), surface: Arc::new(tape), clip, region: clip }.with_clip(clip))
+    }
+
+    /// The same surface in another clip. Searches for a proof that the clip cuts nothing away (a second at most).
+    #[must_use]
+    pub fn with_clip(mut self, clip: Clip) -> Self {
+        self.region = super::framing::region(self.surface.as_ref(), &clip);
+        self.clip = clip;
+        self
+    }
+
+    /// The surface exists only in here, and ends at its border.
+    #[must_use]
+    pub fn clip(&self) -> Clip {
+        self.clip
+    }
+
+    /// Every zero of the function in here is inside the clip: larger than it if the clip cuts nothing away.
+    #[must_use]
+    pub fn region(&self) -> Clip {
+        self.region
     }
 }

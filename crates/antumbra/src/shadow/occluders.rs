@@ -1,5 +1,5 @@
 //! What stands between a hit and a light.
-use crate::eval::Workspace;
+use crate::eval::{Inclusion, Workspace};
 use crate::geom::{Box3, Fan, Passage};
 use crate::trace::{Cost, Sign, Surface, certainly_continuous};
 use antumbra_interval::Interval;
@@ -53,6 +53,15 @@ pub(super) fn fronts(
         })
     };
     surfaces.iter().enumerate().map(&mut front_of).collect()
+}
+
+/// Whether f has no value at all on a box: nothing is there that could occlude.
+pub(super) fn nothing(f: &dyn Inclusion, region: &Box3, work: &mut Workspace, cost: &mut Cost) -> bool {
+    if f.continuous_everywhere() {
+        return false;
+    }
+    cost.evaluations += 1;
+    f.range(region, work).is_empty()
 }
 
 /// Whether the opposite sign of `front` at the parameter `at`, on some of the rays, proves a zero on these rays: all

@@ -1,5 +1,5 @@
 //! Shafts: one test for all hits of a tile of the screen.
-use super::occluders::{Receiver, fronts, hides};
+use super::occluders::{Receiver, fronts, hides, nothing};
 use super::policy::{halves, long_in_shaft, shaft_slope_pays, size};
 use crate::eval::Workspace;
 use crate::geom::{Box3, Fan, Passage, Rect};
@@ -121,6 +121,12 @@ pub fn shaft(
         } else {
             at.function.shaft(point.map(|x| x.value), work)
         };
+        if form.range() == Interval::ENTIRE {
+            let region = Box3(std::array::from_fn(|k| apex[k] + t * directions[k]));
+            if nothing(at.function, &region, work, cost) {
+                continue;
+            }
+        }
         let form = if front.is_some_and(|f| f.sign == Sign::Negative) { -form } else { form };
         let range = form.range();
         if range.certainly_positive() {

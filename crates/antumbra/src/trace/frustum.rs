@@ -1,6 +1,6 @@
 //! Frusta of the camera: which parts of which rays may meet which surface (certified, first order).
 use super::piece::certainly_continuous;
-use super::policy::{Shape, cut};
+use super::policy::{FRUSTUM_EVALUATIONS, Reach, Shape, cut};
 use super::{Cost, Piece, Sign, Surface};
 use crate::eval::Workspace;
 use crate::geom::Fan;
@@ -43,6 +43,14 @@ impl Known {
     }
 }
 
+/// Appends a piece; neighbours with one edge are one piece.
+fn join(open: &mut Vec<Piece>, first: usize, piece: Piece) {
+    match open[first..].last_mut() {
+        Some(last) if last.t.hi() == piece.t.lo() => last.t = last.t.hull(piece.t),
+        _ => open.push(piece),
+    }
+}
+
 /// Looks at a part of a frustum of which `parent` is known, and settles as much of the open pieces as pays.
 ///
 /// A piece in which the enclosure of f excludes 0 holds no surface (wherever f is undefined there is none either). If f
@@ -58,6 +66,7 @@ pub fn narrow(
 ) -> Known {
     cost.beams += 1;
     let (shape, directions) = (Shape::of(fan), fan.directions());
+    let begin = cost.evaluations;
     let mut known = Known { open: Vec::new(), cover: parent.cover, front: parent.front.clone() };
     let mut next = 0;
     while next < parent.open.len() {
@@ -67,7 +76,7 @@ pub fn narrow(
         next = end;
         let function = surfaces[surface].function;
         let passage = surfaces[surface].passage(&fan.apex, &directions);
-        let first_open = known.open.len();
+        let (reach, first_open) = (Reach::of(&passage), known.open.len());
         stack.clear();
         stack.extend(pieces.iter().rev().map(|p| p.t));
         while let Some(t) = stack.pop() {
@@ -80,19 +89,25 @@ pub fn narrow(
                 known.open.push(Piece { surface, t });
                 continue;
             }
+            if cost.evaluations - begin > FRUSTUM_EVALUATIONS {
+                // The work of one frustum is spent: the rest stays open.
+                join(&mut known.open, first_open, Piece { surface, t });
+                continue;
+            }
             cost.evaluations += 1;
-            let range = function.beam(fan.at(t), work).range();
+            let mut range = function.beam(fan.at(t), work).range();
+            if range == Interval::ENTIRE {
+                // Affine forms say nothing at the ends of domains; intervals do.
+                cost.evaluations += 1;
+                range = function.range(&fan.box_at(t), work);
+            }
             if range.possibly_zero() {
-                if shape.long(t) {
+                if shape.long(t, reach) {
                     let [near, far] = cut(t);
                     stack.push(far);
                     stack.push(near);
                 } else {
-                    // Neighbours with one edge are one piece.
-                    match known.open[first_open..].last_mut() {
-                        Some(last) if last.t.hi() == t.lo() => last.t = last.t.hull(t),
-                        _ => known.open.push(Piece { surface, t }),
-                    }
+                    join(&mut known.open, first_open, Piece { surface, t });
                 }
                 continue;
             }

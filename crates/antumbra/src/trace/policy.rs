@@ -1,7 +1,7 @@
 //! Where to cut: choices that cost or save time and never touch a proof. The only file of this room with float
 //! arithmetic.
 #![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
-use crate::geom::Fan;
+use crate::geom::{Fan, Passage};
 use antumbra_interval::Interval;
 
 /// A piece longer than this many widths of the frustum is halved.
@@ -10,6 +10,21 @@ const ASPECT: f64 = 2.0;
 /// Where to cut an interval in two. Not at the middle: roots like to sit at round numbers, and a root at a cut cannot
 /// be proved by signs.
 const CUT: f64 = 0.497_31;
+
+/// Evaluations that one frustum may take; what is open then stays open. The gallery's need less than a tenth of it.
+pub(super) const FRUSTUM_EVALUATIONS: u64 = 2048;
+
+/// A length along the rays below which nothing is resolved, however near to the eye: a share of where the surface's
+/// region ends. (Relative lengths alone would cut for ever at t = 0, where the eye may be inside a surface.)
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach(f64);
+
+impl Reach {
+    pub(super) fn of(passage: &Passage) -> Self {
+        let end = passage.outer.hi();
+        Self(if end.is_finite() { 1e-3 * end } else { 0.0 })
+    }
+}
 
 /// The sizes of a fan that decide how it is cut.
 #[derive(Clone, Copy, Debug)]
@@ -31,9 +46,9 @@ impl Shape {
     }
 
     /// Whether a piece is long enough to be halved rather than divided across.
-    pub(super) fn long(&self, t: Interval) -> bool {
-        let length = t.hi() - t.lo();
-        length * self.speed > ASPECT * self.spread * t.hi() && length > 1e-9 * t.hi()
+    pub(super) fn long(&self, t: Interval, reach: Reach) -> bool {
+        let (length, at) = (t.hi() - t.lo(), t.hi().max(reach.0));
+        length * self.speed > ASPECT * self.spread * t.hi() && length > 1e-9 * at
     }
 }
 
@@ -50,18 +65,25 @@ pub struct Effort {
     shortest: f64,
     /// An enclosed root thinner than this is thin enough.
     root: f64,
+    /// Evaluations to spend.
+    most: u64,
 }
 
 impl Effort {
+    /// Evaluations that one surface of one ray may take.
+    pub(super) fn evaluations(self) -> u64 {
+        self.most
+    }
+
     /// For hits from which shadows start. About 2^-37 is what cancellation leaves of a double root.
-    pub const FINE: Self = Self { shortest: 7.3e-12, root: 1e-14 };
+    pub const FINE: Self = Self { shortest: 7.3e-12, root: 1e-14, most: 4096 };
     /// For colours.
-    pub const COARSE: Self = Self { shortest: 1e-5, root: 1e-4 };
+    pub const COARSE: Self = Self { shortest: 1e-5, root: 1e-4, most: 1024 };
 }
 
 /// Whether a piece of a ray is too short to go on.
-pub(super) fn tiny(t: Interval, effort: Effort) -> bool {
-    t.hi() - t.lo() <= effort.shortest * t.hi().abs()
+pub(super) fn tiny(t: Interval, reach: Reach, effort: Effort) -> bool {
+    t.hi() - t.lo() <= effort.shortest * t.hi().abs().max(reach.0)
 }
 
 /// Whether a root is enclosed well enough, or interval Newton has stopped to pay.

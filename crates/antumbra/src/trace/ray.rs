@@ -1,6 +1,6 @@
 //! The first root along one ray, certified.
 use super::piece::certainly_continuous;
-use super::policy::{Effort, cut, thin, tiny};
+use super::policy::{Effort, Reach, cut, thin, tiny};
 use super::{Cost, Piece, Sign, Surface};
 use crate::eval::Workspace;
 use crate::geom::Beam;
@@ -48,8 +48,9 @@ pub fn first_meeting(
         let end = next + open[next..].iter().take_while(|p| p.surface == surface).count();
         let pieces = &open[next..end];
         next = end;
-        let before = best.map_or(f64::INFINITY, |b| b.t.lo());
-        let found = first_of_surface(surface, &surfaces[surface], ray, pieces, before, effort, scratch, work, cost);
+        // Up to the end of the enclosure: within it, the order of two surfaces is not known.
+        let until = best.map_or(f64::INFINITY, |b| b.t.hi());
+        let found = first_of_surface(surface, &surfaces[surface], ray, pieces, until, effort, scratch, work, cost);
         // Two surfaces whose enclosures overlap: the earlier bound wins, and the order is not proved.
         best = match (best, found) {
             (Some(a), Some(b)) => {
@@ -78,6 +79,7 @@ fn first_of_surface(
     let f = of.function;
     let passage = of.passage(&ray.origin.to_box(), &ray.direction);
     let direction: [Affine<1>; 3] = ray.direction.0.map(Affine::constant);
+    let (reach, begin) = (Reach::of(&passage), cost.evaluations);
     scratch.stack.clear();
     scratch.stack.extend(pieces.iter().rev().map(|p| p.t));
     let mut before = None;
@@ -89,6 +91,9 @@ fn first_of_surface(
         if t.hi() == f64::INFINITY {
             return Some(Meeting { surface, t, before, reason: Some(Reason::Resolution) });
         }
+        if cost.evaluations - begin > effort.evaluations() {
+            return Some(Meeting { surface, t, before, reason: Some(Reason::Budget) });
+        }
         let s = Affine::<1>::spanning(0, t);
         let point = std::array::from_fn(|k| Dual {
             value: (s * direction[k]).add_f64(ray.origin[k]),
@@ -96,7 +101,12 @@ fn first_of_surface(
         });
         cost.evaluations += 1;
         let Dual { value, derivative } = f.ray(point, work);
-        let (value, derivative) = (value.range(), derivative.range());
+        let (mut value, derivative) = (value.range(), derivative.range());
+        if value == Interval::ENTIRE {
+            // Affine forms say nothing at the ends of domains; intervals do.
+            cost.evaluations += 1;
+            value = f.range(&ray.at(t), work);
+        }
         if !value.possibly_zero() {
             before = Sign::of(value).or(before);
             continue;
@@ -119,7 +129,7 @@ fn first_of_surface(
                 _ => {}
             }
         }
-        if tiny(t, effort) {
+        if tiny(t, reach, effort) {
             let reason = if certainly_continuous(f, &ray.at(t), work) { Reason::Touching } else { Reason::Domain };
             return Some(Meeting { surface, t, before, reason: Some(reason) });
         }

@@ -131,7 +131,7 @@ fn cells_that_hold_a_zero_are_marked() {
     let mut work = Workspace::default();
     for row in PRESETS.iter().filter(|p| !["pole", "viviani", "circle", "sphere2", "flat"].contains(&p.name)) {
         let scene = preset(row.name).unwrap().unwrap();
-        let (f, clip) = (scene.objects[0].surface.as_ref(), scene.objects[0].clip.bounds());
+        let (f, clip) = (scene.objects[0].surface.as_ref(), scene.objects[0].clip().bounds());
         let grids = [7, 32].map(|n| Grid::build(f, clip, n));
         let mut zeros = 0;
         for _ in 0..400 {

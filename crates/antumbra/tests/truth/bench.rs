@@ -33,7 +33,7 @@ impl Bench {
         let surfaces: Vec<Surface<'_>> = self
             .objects
             .iter()
-            .map(|o| Surface { function: o.surface.as_ref(), clip: o.clip, region: o.region })
+            .map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() })
             .collect();
         let receiver = Receiver { point: at.to_box(), surface: 0, side: self.side(towards) };
         let tolerance = Tolerance { width, rectangles };

@@ -39,7 +39,7 @@ impl Judge {
         let exact =
             |op: &Op| !matches!(op, Op::Unary(op) if !matches!(op, Unary::Neg | Unary::Abs | Unary::Sqr | Unary::Sqrt));
         let noise = if tape.clauses().iter().all(|c| exact(&c.op)) { 1e-24 } else { 1e-14 };
-        Self { tape, clip: object.clip, noise }
+        Self { tape, clip: object.clip(), noise }
     }
 
     /// The value at `p + t d`: in double precision, and in twice that where it is near to zero on the given scale.
