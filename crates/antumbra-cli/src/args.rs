@@ -27,6 +27,8 @@ pub(crate) enum Command {
     Compare(CompareArgs),
     Paper(PaperArgs),
     Audit(AuditArgs),
+    #[command(subcommand)]
+    Scene(SceneCommand),
     Info,
 }
 
@@ -38,6 +40,7 @@ Examples:
   antumbra render -o sphere.png -- '-x^2 - y^2 - z^2 + 1'
   antumbra render mcmullen --planes planes --json - --quiet | jq .hits
   antumbra render - < formula.txt
+  antumbra render rings.toml --size 800x600        # `antumbra scene new rings.toml` writes one to begin with
 
 Planes have row 0 at the top. The shape of verdict, t_lo, t_hi, visible_lo, visible_hi, \
 coverage_lo, coverage_hi, facing, initial_occluded and cost is (height, width) (visible_lo_2 and so on belong to a second light), that of normal and rgb (linear light) is (height, width, 3). t_lo and t_hi are NaN only where the \
@@ -50,7 +53,8 @@ pixel is empty.";
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!("{RENDER_EXAMPLES}\n\n{EXIT_CODES}"))]
 pub(crate) struct RenderArgs {
-    /// A preset (`antumbra info` lists them), a formula in x, y, z, or `-` for a formula on standard input
+    /// A preset (`antumbra info` lists them), a scene file (.toml), a formula in x, y, z, or `-` for a formula on standard
+    /// input
     #[arg(value_name = "SCENE-OR-FORMULA")]
     pub(crate) scene: String,
 
@@ -151,7 +155,7 @@ Examples:
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!("{COMPARE_EXAMPLES}\n\n{EXIT_CODES}"))]
 pub(crate) struct CompareArgs {
-    /// A preset, a formula in x, y, z, or `-` for a formula on standard input
+    /// A preset, a scene file (.toml), a formula in x, y, z, or `-` for a formula on standard input
     #[arg(value_name = "SCENE-OR-FORMULA")]
     pub(crate) scene: String,
 
@@ -181,6 +185,29 @@ pub(crate) struct CompareArgs {
     pub(crate) quiet: bool,
 }
 
+/// Scene files: write one to begin with, check one, print one.
+#[derive(Debug, Subcommand)]
+pub(crate) enum SceneCommand {
+    /// Write a scene file to begin with, with a comment for every key
+    New {
+        /// File to write, such as rings.toml; an existing file is kept
+        #[arg(value_name = "FILE.toml")]
+        file: PathBuf,
+    },
+    /// Say whether a scene can be drawn, and what it holds
+    Check {
+        /// A scene file, a preset, a formula, or `-`
+        #[arg(value_name = "SCENE")]
+        scene: String,
+    },
+    /// Print a scene as a scene file, complete: what was left out is filled in
+    Show {
+        /// A scene file, a preset, a formula, or `-`
+        #[arg(value_name = "SCENE")]
+        scene: String,
+    },
+}
+
 const AUDIT_EXAMPLES: &str = "\
 Examples:
   antumbra audit orthocircle --size 256
@@ -196,7 +223,7 @@ A folder's frame is read as it is (options that say what to draw do not apply); 
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!("{AUDIT_EXAMPLES}\n\n{EXIT_CODES}"))]
 pub(crate) struct AuditArgs {
-    /// A folder that `render --planes` wrote (named with a `/` in it), or a preset, a formula, or `-`
+    /// A folder that `render --planes` wrote (named with a `/` at its end), or a preset, a scene file, a formula, or `-`
     #[arg(value_name = "FOLDER-OR-SCENE")]
     pub(crate) frame: String,
 

@@ -1,6 +1,7 @@
 //! Validated options: scenes found, formulas read, paths and formats understood.
 
 use std::{
+    fs,
     io::Read,
     path::{Path, PathBuf},
     sync::Arc,
@@ -13,7 +14,7 @@ use antumbra::{
     image::Depth,
     render::{Method, Overlay, RenderSpec, RunSpec},
     report::Exhibit,
-    scene::{self, PRESETS, Scene},
+    scene::{self, PRESETS, Scene, SceneFile},
 };
 use anyhow::{Result, anyhow};
 
@@ -103,7 +104,8 @@ impl RenderOptions {
         if json == Some(JsonTarget::File(picture.clone())) {
             return Err(Usage(format!("`{}` cannot be both picture and JSON", picture.display())).into());
         }
-        let (spec, run) = specs(args.spec, args.method);
+        let (mut spec, run) = specs(args.spec, args.method);
+        spec.floor |= scene.scene.floor_shown;
         Ok(Self {
             scene,
             spec,
@@ -131,8 +133,9 @@ impl CompareOptions {
         let Some(&first) = args.methods.first() else {
             return Err(Usage("--methods needs at least one method".to_owned()).into());
         };
-        let (spec, run) = specs(args.spec, first);
         let scene = find_scene(&args.scene)?;
+        let (mut spec, run) = specs(args.spec, first);
+        spec.floor |= scene.scene.floor_shown;
         Ok(Self {
             scene,
             spec,
@@ -186,7 +189,9 @@ impl AuditOptions {
         let audited = if args.frame.ends_with('/') || (scene::preset(&args.frame).is_none() && folder.is_dir()) {
             Audited::Folder(folder.to_owned())
         } else {
-            Audited::Scene(find_scene(&args.frame)?, spec.clone())
+            let scene = find_scene(&args.frame)?;
+            let floor = spec.floor || scene.scene.floor_shown;
+            Audited::Scene(scene, RenderSpec { floor, ..spec.clone() })
         };
         let json = args.json.map(json_target);
         Ok(Self {
@@ -255,11 +260,28 @@ pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
         }
         return from_formula(formula.trim_end());
     }
+    if text.ends_with(".toml") {
+        return from_file(Path::new(text));
+    }
     if let Some(scene) = scene::preset(text) {
         let scene = Arc::new(scene.map_err(|e| Usage(explain(&e, text)))?);
         return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene });
     }
     from_formula(text)
+}
+
+/// The scene in a file, named as its file.
+fn from_file(path: &Path) -> Result<NamedScene> {
+    let refuse = |reason: String| anyhow!(Usage(format!("`{}`: {reason}", path.display())));
+    let size = fs::metadata(path).map_err(|e| anyhow!("cannot read `{}`: {e}", path.display()))?.len();
+    if size > MAX_FORMULA {
+        return Err(refuse(format!("a scene file has at most {MAX_FORMULA} bytes, this one {size}")));
+    }
+    let bytes = fs::read(path).map_err(|e| anyhow!("cannot read `{}`: {e}", path.display()))?;
+    let text = String::from_utf8(bytes).map_err(|e| refuse(format!("it is not text in UTF-8: {e}")))?;
+    let stem = path.file_stem().map_or_else(|| "antumbra".to_owned(), |s| s.to_string_lossy().into_owned());
+    let scene = SceneFile::parse(&text).and_then(|file| file.scene(&stem)).map_err(|e| refuse(e.to_string()))?;
+    Ok(NamedScene { name: path.display().to_string(), stem, scene: Arc::new(scene) })
 }
 
 fn from_formula(text: &str) -> Result<NamedScene> {

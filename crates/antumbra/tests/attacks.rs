@@ -22,6 +22,7 @@ fn scene_of(texts: &[&str], clip: Box3, eye: Vec3) -> Scene {
         title: "Attack".to_owned(),
         objects: texts.iter().map(|text| Object::parse(text, Clip::Box(clip)).unwrap()).collect(),
         floor_height: -4.0,
+        floor_shown: false,
         view: View { eye, target: Vec3::default(), fov_deg: 20.0 },
         lights: vec![Light::white(Rect::horizontal(Vec3::new(1.0, 2.0, 9.0), 1.0))],
     }

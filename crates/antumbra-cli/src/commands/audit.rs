@@ -6,7 +6,7 @@ use antumbra::{
     audit::{Audit, AuditSpec, Report, Tally},
     image::{Planes, plane_from_npy},
     render::{Frame, Method, RenderSpec, Renderer},
-    scene::Scene,
+    scene::{Scene, SceneFile},
 };
 use anyhow::{Result, anyhow, bail};
 use indicatif::HumanCount;
@@ -14,7 +14,7 @@ use serde::Serialize;
 
 use super::{complete, json_sink, json_text, print_json, record::FrameRecord};
 use crate::{
-    options::{AuditOptions, Audited, JsonTarget, find_scene},
+    options::{AuditOptions, Audited, JsonTarget},
     output::{finish, print, remark},
     progress::Progress,
 };
@@ -128,7 +128,8 @@ fn from_folder(folder: &Path) -> Result<Claimed> {
             record.method
         );
     }
-    let scene = find_scene(&record.scene)?.scene;
+    let scene = SceneFile::parse(&record.scene_file).and_then(|file| file.scene(&record.scene));
+    let scene = Arc::new(scene.map_err(|e| anyhow!("the scene in `{}`: {e}", path.display()))?);
     let mut planes = Planes::new();
     for name in Frame::plane_names(scene.lights.len()) {
         planes.add(plane_from_npy(&name, &read(&format!("{name}.npy"))?)?)?;

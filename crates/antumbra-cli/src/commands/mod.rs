@@ -6,6 +6,7 @@ mod info;
 mod paper;
 mod record;
 mod render;
+mod scene;
 
 use std::time::{Duration, Instant};
 
@@ -33,6 +34,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Command::Compare(args) => compare::run(&CompareOptions::new(args)?),
         Command::Paper(args) => paper::run(&PaperOptions::new(args)),
         Command::Audit(args) => audit::run(&AuditOptions::new(args)?),
+        Command::Scene(command) => scene::run(&command),
         Command::Info => info::run(),
     }
 }

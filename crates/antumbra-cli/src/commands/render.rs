@@ -63,7 +63,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let stats = renderer.stats();
     if let Some(folder) = &folder {
         let mut sink = folder.sink(FrameRecord::FILE)?;
-        sink.fill(json_text(&FrameRecord::new(&options.scene.name, &options.spec))?.as_bytes())?;
+        sink.fill(json_text(&FrameRecord::new(&options.scene, &options.spec)?)?.as_bytes())?;
         sinks.push(sink);
     }
     let record = json_text(&Record {

@@ -3,6 +3,7 @@ use super::pixel::{Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
 use super::task::Task;
 use super::{Frame, Method, Stats};
+use crate::scene::Colors;
 use crate::verdict::{Reason, Verdict};
 use std::collections::BTreeMap;
 
@@ -119,8 +120,10 @@ impl Book {
         let Some(hit) = hit else { return backdrop.map(|c| c as f32) };
         // All hits of the paper's methods are undecided; there it would say nothing.
         let touching = task.method == Method::Certified && hit.receiver.is_none() && !self.at_an_edge(task, index);
-        let Hit { point: position, normal, outside, floor, .. } = *hit;
-        let point = Point { position, normal, outside, floor, touching };
+        let Hit { point: position, normal, outside, floor, object, .. } = *hit;
+        let Colors { outside: above, inside: below } = task.objects[object].colors;
+        let color = if outside { above } else { below };
+        let point = Point { position, normal, color, floor, touching };
         let eye = task.film.camera.eye;
         let lights = task.lights.iter().zip(&self.frame.lights).map(|(light, planes)| Lamp {
             place: light.rect.center,

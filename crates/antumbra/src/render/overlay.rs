@@ -35,6 +35,8 @@ type Entry = ([u8; 3], String);
 /// Height of a line of the legend, and size of a letter.
 const LINE: usize = 14;
 const LETTER: usize = 8;
+/// Column in which the text of the legend begins.
+const TEXT: usize = 22;
 const PAPER: [u8; 3] = [24, 24, 28];
 const INK: [u8; 3] = [232, 232, 232];
 
@@ -55,25 +57,30 @@ impl Frame {
                 self.by_scale("bracket width", width, |e| format!("2^{}", e as i32 - 16))
             }
         };
+        let lines: Vec<String> = entries
+            .iter()
+            .enumerate()
+            .map(|(k, (_, text))| format!("{text}: {}", kinds.iter().filter(|kind| **kind == k).count()))
+            .collect();
+        // A small picture gets a margin, so that its legend can be read.
+        let longest = lines.iter().map(String::len).max().unwrap_or(0);
+        let width = self.width.max(TEXT + longest * LETTER + 4);
         let rows = self.height + entries.len() * LINE + 4;
-        let mut canvas = vec![PAPER; rows * self.width];
-        for (pixel, kind) in canvas.iter_mut().zip(&kinds) {
-            *pixel = entries[*kind].0;
+        let mut canvas = vec![PAPER; rows * width];
+        for (i, kind) in kinds.iter().enumerate() {
+            canvas[i / self.width * width + i % self.width] = entries[*kind].0;
         }
-        for (k, (color, text)) in entries.iter().enumerate() {
-            let count = kinds.iter().filter(|kind| **kind == k).count();
+        for (k, ((color, _), line)) in entries.iter().zip(&lines).enumerate() {
             let top = self.height + 3 + k * LINE;
             for y in top..top + LETTER {
-                for x in 4..16.min(self.width) {
-                    canvas[y * self.width + x] = *color;
-                }
+                canvas[y * width + 4..y * width + 16].fill(*color);
             }
-            write(&mut canvas, self.width, 22, top, &format!("{text}: {count}"));
+            write(&mut canvas, width, TEXT, top, line);
         }
         let linear: Vec<f32> =
             canvas.iter().flatten().map(|code| linear_from_srgb(f64::from(*code) / 255.0) as f32).collect();
         let mut planes = Planes::new();
-        planes.add(Plane::with_channels(COLOR_PLANE, rows, self.width, 3, linear)?)?;
+        planes.add(Plane::with_channels(COLOR_PLANE, rows, width, 3, linear)?)?;
         Ok(planes)
     }
 
@@ -151,16 +158,13 @@ fn log2(x: f64) -> f64 {
     core_math::log2(x)
 }
 
-/// Writes a line of text; what does not fit is cut off.
+/// Writes a line of text.
 fn write(canvas: &mut [[u8; 3]], width: usize, left: usize, top: usize, text: &str) {
     for (k, letter) in text.chars().enumerate() {
         let Some(glyph) = font8x8::BASIC_FONTS.get(letter) else { continue };
         for (y, bits) in glyph.into_iter().enumerate() {
             for x in (0..LETTER).filter(|x| bits >> x & 1 == 1) {
-                let column = left + k * LETTER + x;
-                if column < width {
-                    canvas[(top + y) * width + column] = INK;
-                }
+                canvas[(top + y) * width + left + k * LETTER + x] = INK;
             }
         }
     }
@@ -181,10 +185,13 @@ mod tests {
             assert_eq!(Overlay::from_name(name), Some(overlay));
             let planes = frame.overlay(overlay, 0.01).unwrap();
             let plane = planes.require(COLOR_PLANE).unwrap();
-            assert!(plane.rows() > 3 + 4 * LINE && plane.columns() == 200);
+            assert!(plane.rows() > 3 + 4 * LINE && plane.columns() >= 200);
             let crate::image::Samples::F32(v) = plane.samples() else { panic!("single precision") };
             assert_ne!(v[..3], v[15..18], "{name}: the special pixel looks different");
-            assert!(v[3 * 200 * 3..].contains(&(linear_from_srgb(232.0 / 255.0) as f32)), "{name}: no letters");
+            assert!(
+                v[3 * plane.columns() * 3..].contains(&(linear_from_srgb(232.0 / 255.0) as f32)),
+                "{name}: no letters"
+            );
         }
         assert_eq!(frame.by_shadow(0.01).1[5], 4);
         assert_eq!(frame.by_shadow(0.25).1[5], 2);

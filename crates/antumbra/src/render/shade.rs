@@ -8,8 +8,8 @@ pub(super) struct Point {
     pub(super) position: Vec3,
     /// Unit normal, turned to the viewer.
     pub(super) normal: Vec3,
-    /// Whether the viewer is on the side where f > 0.
-    pub(super) outside: bool,
+    /// Colour of the side that is seen.
+    pub(super) color: [f64; 3],
     /// Whether it belongs to the floor.
     pub(super) floor: bool,
     /// Whether f seems to touch 0 there without a change of sign: not proved to be a surface.
@@ -27,9 +27,6 @@ pub(super) struct Lamp {
     pub(super) visible: f64,
 }
 
-/// Outside of a surface: warm clay. Inside: slate blue.
-const OUTSIDE: [f64; 3] = [0.80, 0.43, 0.20];
-const INSIDE: [f64; 3] = [0.16, 0.36, 0.50];
 /// What may be a surface: violet, like nothing else.
 const TOUCHING: [f64; 3] = [0.55, 0.20, 0.60];
 const FLOOR: [f64; 3] = [0.62, 0.62, 0.64];
@@ -58,8 +55,7 @@ pub(super) fn shade(
     let base = match p {
         Point { touching: true, .. } => TOUCHING,
         Point { floor: true, .. } => FLOOR,
-        Point { outside: true, .. } => OUTSIDE,
-        _ => INSIDE,
+        Point { color, .. } => *color,
     };
     let mut color: [f64; 3] = std::array::from_fn(|i| {
         let fill = GROUND[i] + (SKY[i] - GROUND[i]) * up;

@@ -125,23 +125,17 @@ fn hull_of_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace) -> Optio
     hull
 }
 
-/// A scene around one object: the camera sees its clip box from the front, a little to the right and above; a square
+/// A scene around objects, at least one: the camera sees the box around their clips from the front, a little to the right and above; a square
 /// light of a tenth of the picture's width (paper, section 4) hangs above, to the left.
-pub(super) fn scene(name: String, title: String, object: Object) -> Scene {
-    let bounds = object.clip().bounds();
+pub(super) fn scene(name: String, title: String, objects: Vec<Object>) -> Scene {
+    let bounds = objects.iter().map(|o| o.clip().bounds()).reduce(Box3::hull).unwrap_or(Box3::cube(1.0));
     let (centre, half) = (bounds.mid(), bounds.half_extent());
     let radius = half.0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
     let eye = centre + Vec3::new(3.0, -4.0, 3.0) * radius;
     let light = Light::white(Rect::horizontal(centre + Vec3::new(-1.0, -2.0, 6.0) * radius, 0.25 * radius));
     let view = View { eye, target: centre, fov_deg: angle_over(&bounds, eye, centre) };
-    Scene {
-        name,
-        title,
-        floor_height: bounds[2].lo() - 0.05 * radius,
-        view,
-        lights: vec![light],
-        objects: vec![object],
-    }
+    let floor_height = bounds[2].lo() - 0.05 * radius;
+    Scene { name, title, floor_height, floor_shown: false, view, lights: vec![light], objects }
 }
 
 /// The full angle, in degrees, that shows the ellipsoid inside the box and a margin. (Corners of the box are mostly empty.)

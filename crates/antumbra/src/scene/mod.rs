@@ -1,12 +1,14 @@
 //! What is to be drawn: objects, light, camera, colours; the presets; and a framing for any formula.
+mod file;
 mod framing;
 mod light;
 mod object;
 mod presets;
 
+pub use file::{CameraEntry, ClipEntry, FileError, FloorEntry, LightEntry, Parameter, Ranged, SceneFile, SurfaceEntry};
 pub use framing::{Extent, extent};
 pub use light::Light;
-pub use object::{Error, Object};
+pub use object::{Colors, Error, Object};
 pub use presets::{PRESETS, Preset, preset};
 
 use crate::geom::{Box3, Camera, Clip, Vec3};
@@ -23,6 +25,8 @@ pub struct Scene {
     pub objects: Vec<Object>,
     /// Where a floor would be, if one is asked for.
     pub floor_height: f64,
+    /// Whether the scene asks for it.
+    pub floor_shown: bool,
     /// Where the camera stands and how wide it sees.
     pub view: View,
     /// The area lights; none leaves only the fill light.
@@ -57,7 +61,7 @@ impl Scene {
         let object = Object::parse(text, Clip::Everywhere)?;
         let found = extent(object.surface.as_ref());
         let object = object.with_clip(Clip::Box(found.clip()));
-        Ok(framing::scene(text.trim().to_owned(), "Formula".to_owned(), object))
+        Ok(framing::scene(text.trim().to_owned(), "Formula".to_owned(), vec![object]))
     }
 
     /// Half the largest edge of the box that holds all objects: the scale of the scene.

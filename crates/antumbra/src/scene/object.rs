@@ -5,6 +5,22 @@ use crate::geom::Clip;
 use crate::tape::{Tape, TapeError};
 use std::sync::Arc;
 
+/// Colours of the two sides of a surface, linear Rec. 709.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Colors {
+    /// Of the side on which f > 0.
+    pub outside: [f64; 3],
+    /// Of the other side.
+    pub inside: [f64; 3],
+}
+
+impl Default for Colors {
+    /// Warm clay outside, slate blue inside.
+    fn default() -> Self {
+        Self { outside: [0.80, 0.43, 0.20], inside: [0.16, 0.36, 0.50] }
+    }
+}
+
 /// One surface `{f = 0}` inside its clip box.
 #[derive(Clone)]
 pub struct Object {
@@ -12,6 +28,8 @@ pub struct Object {
     pub text: String,
     /// Its zero set's function, rewritten so that it changes sign where it can.
     pub surface: Arc<dyn Inclusion>,
+    /// Colours of its sides.
+    pub colors: Colors,
     // Together, so that no clip is ever paired with the region of another.
     clip: Clip,
     region: Clip,
@@ -42,7 +60,8 @@ impl Object {
     pub fn parse(text: &str, clip: Clip) -> Result<Self, Error> {
         let formula = Formula::parse(text)?;
         let tape = Tape::compile(&formula.surface().formula().repeated_squares())?;
-        Ok(Self { text: text.to_owned(), surface: Arc::new(tape), clip, region: clip }.with_clip(clip))
+        Ok(Self { text: text.to_owned(), surface: Arc::new(tape), colors: Colors::default(), clip, region: clip }
+            .with_clip(clip))
     }
 
     /// The same surface in another clip. Searches for a proof that the clip cuts nothing away (a second at most).

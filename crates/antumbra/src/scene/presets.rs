@@ -156,8 +156,8 @@ pub fn preset(name: &str) -> Option<Result<Scene, Error>> {
     let object = |formula| Object::parse(formula, Clip::Box(Box3::cube(row.half)));
     let others: Result<Vec<Object>, Error> = row.others.iter().map(|formula| object(formula)).collect();
     Some(object(row.formula).and_then(|first| {
-        let mut scene = framing::scene(row.name.to_owned(), row.title.to_owned(), first);
-        scene.objects.extend(others?);
+        let objects = std::iter::once(first).chain(others?).collect();
+        let mut scene = framing::scene(row.name.to_owned(), row.title.to_owned(), objects);
         if let Some(stage) = row.stage {
             scene.floor_height = stage.floor;
             scene.view = View { eye: Vec3(stage.eye), target: Vec3::default(), fov_deg: stage.fov_deg };

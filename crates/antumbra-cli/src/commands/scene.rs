@@ -1,0 +1,44 @@
+//! `antumbra scene`: scene files written, checked and printed.
+
+use antumbra::{geom::Clip, scene::SceneFile};
+use anyhow::{Result, bail};
+
+use crate::{
+    args::SceneCommand,
+    options::find_scene,
+    output::{Sink, finish, print, remark},
+};
+
+/// A scene to begin with; its test renders it.
+const TEMPLATE: &str = include_str!("scene.toml");
+
+/// Writes, checks or prints.
+pub(super) fn run(command: &SceneCommand) -> Result<()> {
+    match command {
+        SceneCommand::New { file } => {
+            if file.extension().is_none_or(|e| e != "toml") {
+                bail!("`{}` should end in .toml, so that `antumbra render` knows it as a scene file", file.display());
+            }
+            if file.exists() {
+                bail!("`{}` exists and is kept; choose another name", file.display());
+            }
+            let mut sink = Sink::open(file)?;
+            sink.fill(TEMPLATE.as_bytes())?;
+            finish(vec![sink])?;
+            remark(&format!("wrote {0}: edit it, then `antumbra render {0}`", file.display()));
+            Ok(())
+        }
+        SceneCommand::Check { scene } => {
+            let found = find_scene(scene)?;
+            let (objects, lights) = (&found.scene.objects, found.scene.lights.len());
+            let whole = objects.iter().filter(|o| o.region() != o.clip() || o.clip() == Clip::Everywhere).count();
+            print(&format!(
+                "{}: surfaces: {} ({whole} proved to lie wholly inside their clips), lights: {lights}, floor: {}\n",
+                found.scene.title,
+                objects.len(),
+                if found.scene.floor_shown { "yes" } else { "no" },
+            ))
+        }
+        SceneCommand::Show { scene } => print(&SceneFile::of(&find_scene(scene)?.scene).text()?),
+    }
+}
