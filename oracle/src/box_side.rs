@@ -2,6 +2,7 @@
 use crate::count::Count;
 use crate::function::Function;
 use crate::sample::Sampler;
+use crate::turns::Wave;
 use antumbra_interval::Interval;
 
 /// Our interval as inari's.
@@ -25,7 +26,14 @@ pub(crate) fn check(function: &Function, boxes: u64, seed: u64, count: &mut Coun
         let text = || format!("{:?}", &x[..function.arity]);
         if let Some(inari) = function.inari {
             count.boxes += 1;
-            let tight = ours(inari(x.map(theirs)));
+            let mut tight = ours(inari(x.map(theirs)));
+            if let Some(wave) = Wave::of(function.name).filter(|_| x[0].is_bounded()) {
+                // inari may widen narrow boxes far from 0: MPFR knows which multiples of pi/2 are inside.
+                let tightest = sampler.turns.tightest(wave, function, x[0]);
+                assert!(tightest.is_subset_of(tight), "{} of {}: inari {tight}, MPFR {tightest}", function.name, x[0]);
+                count.narrower += u64::from(tightest != tight);
+                tight = tightest;
+            }
             if let Some([lo, hi]) = count.excess(got, tight, text) {
                 count.at_boxes = [count.at_boxes[0].max(lo), count.at_boxes[1].max(hi)];
             }

@@ -18,6 +18,8 @@ pub(crate) struct Count {
     pub(crate) at_boxes: [u64; 2],
     /// How many points were enclosed by the tightest bounds themselves.
     pub(crate) tightest: u64,
+    /// Boxes on which inari's enclosure was not the tightest.
+    pub(crate) narrower: u64,
     pub(crate) violations: Vec<String>,
 }
 
@@ -32,6 +34,7 @@ impl Count {
             at_points: [0; 2],
             at_boxes: [0; 2],
             tightest: 0,
+            narrower: 0,
             violations: vec![],
         }
     }
@@ -78,6 +81,12 @@ pub(crate) fn table(counts: &[Count]) -> String {
             c.violations.len(),
             c.allowed
         );
+    }
+    let narrower: Vec<String> =
+        counts.iter().filter(|c| c.narrower > 0).map(|c| format!("{} {}", c.name, c.narrower)).collect();
+    if !narrower.is_empty() {
+        out +=
+            &format!("\nBoxes on which inari is not the tightest and MPFR confirms ours: {}.\n", narrower.join(", "));
     }
     out
 }

@@ -43,7 +43,8 @@ pub(crate) struct Function {
 impl Function {
     /// The tightest enclosure of the value at a point of the domain.
     pub(crate) fn at(&self, x: Operands<f64>) -> Interval {
-        let operands = x.map(|x| Float::with_val(BITS, x));
+        // Real numbers have one zero: the sum makes it +0.
+        let operands = x.map(|x| Float::with_val(BITS, x + 0.0));
         let (value, side) = (self.mpfr)(&operands, Round::Down);
         // Rounding down twice is rounding down once: the second step only meets coarser numbers.
         let lo = value.to_f64_round(Round::Down);

@@ -160,9 +160,8 @@ fn elementary() -> Vec<Function> {
             |y, x| y != 0.0 || x != 0.0,
             Interval::atan2,
             |x, round| {
-                // There is one zero: no sign of it is looked at.
-                let mut value = x[0].clone() + 0u32;
-                let side = value.atan2_round(&(x[1].clone() + 0u32), round);
+                let mut value = x[0].clone();
+                let side = value.atan2_round(&x[1], round);
                 (value, side)
             },
             Some(|[y, x, _]| y.atan2(x))
@@ -174,7 +173,7 @@ fn elementary() -> Vec<Function> {
             |x, y| x > 0.0 || (x == 0.0 && y > 0.0),
             Interval::pow,
             |x, round| {
-                let mut value = x[0].clone() + 0u32;
+                let mut value = x[0].clone();
                 let side = value.pow_assign_round(&x[1], round);
                 (value, side)
             },

@@ -13,6 +13,7 @@ mod function;
 mod list;
 mod point_side;
 mod sample;
+mod turns;
 
 #[allow(dead_code, reason = "the generator is the one of the interval crate's tests; a part of it is used here")]
 #[path = "../../crates/antumbra-interval/tests/nasty/mod.rs"]
@@ -45,7 +46,8 @@ fn main() -> ExitCode {
 
     let violations: Vec<&String> =
         counts.iter().flat_map(|c| &c.violations).chain(forms.iter().flat_map(|c| &c.violations)).collect();
-    let total = counts.iter().map(|c| c.points + c.boxes + c.members).sum::<u64>() + forms.iter().map(|c| c.checks).sum::<u64>();
+    let total = counts.iter().map(|c| c.points + c.boxes + c.members).sum::<u64>()
+        + forms.iter().map(|c| c.checks).sum::<u64>();
     println!("{total} comparisons, seed {seed}: {} violations", violations.len());
     for violation in violations.iter().take(50) {
         eprintln!("{violation}");

@@ -1,9 +1,8 @@
 //! Hard arguments.
 use crate::function::{Function, Hard, Operands};
 use crate::nasty::{Generator, nudge};
+use crate::turns::Turns;
 use antumbra_interval::Interval;
-use rug::Float;
-use rug::float::{Constant, Round};
 
 /// Arguments whose results are famous for lying near a float or near the middle of two (Lefevre and Muller), the float
 /// nearest to a multiple of pi/2 of all, and ends of ranges.
@@ -26,16 +25,14 @@ const FAMOUS: [f64; 12] = [
 pub(crate) struct Sampler {
     pub(crate) generator: Generator,
     hard: Hard,
-    half_pi: Float,
+    pub(crate) turns: Turns,
 }
 
 impl Sampler {
     pub(crate) fn new(function: &Function, seed: u64) -> Self {
         // The name makes the sequences of the functions different.
         let salt = function.name.bytes().fold(seed, |s, b| s.wrapping_mul(0x100_0000_01b3) ^ u64::from(b));
-        // A product with a 53-bit integer of any exponent is right to far below an ulp.
-        let half_pi = Float::with_val(1300, Constant::Pi) / 2u32;
-        Self { generator: Generator(salt), hard: function.hard, half_pi }
+        Self { generator: Generator(salt), hard: function.hard, turns: Turns::new() }
     }
 
     /// A float: one in three hard for the function.
@@ -68,8 +65,7 @@ impl Sampler {
                 let bits = 1 + g.below(53);
                 let integer = (g.bits() >> (64 - bits)).max(1);
                 let shift = if g.below(3) == 0 { g.below(970) as u32 } else { 0 };
-                let product = Float::with_val(1400, &self.half_pi * integer) << shift;
-                nudge(product.to_f64_round(Round::Nearest), steps).clamp(f64::MIN, f64::MAX)
+                nudge(self.turns.quarter(integer, shift), steps).clamp(f64::MIN, f64::MAX)
             }
             Hard::UnitInterval => match g.below(3) {
                 0 => nudge(1.0, steps),
@@ -78,8 +74,13 @@ impl Sampler {
             },
             // 2^k: powers and exponentials of these cross the limits of the format.
             Hard::Overflow => match g.below(3) {
-                0 => nudge([708.0, 709.782_712_893_384, 710.475_860_073_943_9, 745.133_219][g.below(4) as usize], steps),
-                1 => crate::nasty::power_of_two([341, 256, 128, 114, 60, 1, -1, -358, -134][g.below(9) as usize]) * (1.0 + g.unit()),
+                0 => {
+                    nudge([708.0, 709.782_712_893_384, 710.475_860_073_943_9, 745.133_219][g.below(4) as usize], steps)
+                }
+                1 => {
+                    crate::nasty::power_of_two([341, 256, 128, 114, 60, 1, -1, -358, -134][g.below(9) as usize])
+                        * (1.0 + g.unit())
+                }
                 _ => 745.0 * g.unit(),
             },
         }
