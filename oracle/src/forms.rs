@@ -1,9 +1,7 @@
 //! Affine forms and slopes against MPFR: at exact members of their operands, with values to 200 bits.
 use crate::nasty::Generator;
-use antumbra::eval::Number;
-use antumbra::expr::{Binary, Unary};
+use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Apex, Slope};
-use antumbra_interval::{Interval, affine};
 use rug::Float;
 use rug::float::Round;
 use rug::ops::PowAssignRound;
@@ -13,7 +11,7 @@ const BITS: u32 = 200;
 /// Bits in which sums and products of a few floats of ordinary size are exact.
 const EXACT: u32 = 2200;
 
-/// An operator of the language.
+/// An operator that forms have.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Operator {
     Unary(Unary),
@@ -21,9 +19,51 @@ pub(crate) enum Operator {
     Binary(Binary),
 }
 
+/// Kinds of forms: the operators by name.
+trait Form: Copy {
+    fn apply(operator: Operator, a: Self, b: Self) -> Self;
+}
+
+macro_rules! operators {
+    (unary: $($unary:ident $u:ident)*; binary: $($binary:ident $b:ident)*;) => {
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(crate) enum Unary { Neg, $($unary,)* }
+        #[derive(Clone, Copy, Debug, PartialEq)]
+        pub(crate) enum Binary { Add, Sub, Mul, Div, $($binary,)* }
+
+        const UNARY: &[Unary] = &[Unary::Neg, $(Unary::$unary,)*];
+        const BINARY: &[Binary] = &[Binary::Add, Binary::Sub, Binary::Mul, Binary::Div, $(Binary::$binary,)*];
+
+        operators!(@form [const N: usize] Affine<N>; $($unary $u)*; $($binary $b)*;);
+        operators!(@form [P: Apex<N>, const N: usize] Slope<P, N>; $($unary $u)*; $($binary $b)*;);
+    };
+    (@form [$($generics:tt)*] $kind:ty; $($unary:ident $u:ident)*; $($binary:ident $b:ident)*;) => {
+        impl<$($generics)*> Form for $kind {
+            fn apply(operator: Operator, a: Self, b: Self) -> Self {
+                match operator {
+                    Operator::Unary(Unary::Neg) => -a,
+                    $(Operator::Unary(Unary::$unary) => a.$u(),)*
+                    Operator::Power(n) => a.powi(n),
+                    Operator::Binary(Binary::Add) => a + b,
+                    Operator::Binary(Binary::Sub) => a - b,
+                    Operator::Binary(Binary::Mul) => a * b,
+                    Operator::Binary(Binary::Div) => a / b,
+                    $(Operator::Binary(Binary::$binary) => a.$b(b),)*
+                }
+            }
+        }
+    };
+}
+operators! {
+    unary: Abs abs Sign sign Floor floor Sqr sqr Sqrt sqrt Cbrt cbrt Exp exp Ln ln Sin sin Cos cos Tan tan Asin asin
+        Acos acos Atan atan Sinh sinh Cosh cosh Tanh tanh;
+    binary: Min min Max max Pow pow Atan2 atan2;
+}
+
 pub(crate) fn operators() -> Vec<Operator> {
     let powers = [-9, -3, -2, -1, 3, 4, 5, 8, 9, 17].map(Operator::Power);
-    Unary::ALL.map(Operator::Unary).into_iter().chain(powers).chain(Binary::ALL.map(Operator::Binary)).collect()
+    let unary = UNARY.iter().map(|op| Operator::Unary(*op));
+    unary.chain(powers).chain(BINARY.iter().map(|op| Operator::Binary(*op))).collect()
 }
 
 impl Operator {
@@ -32,14 +72,6 @@ impl Operator {
             Self::Unary(op) => format!("{op:?}").to_lowercase(),
             Self::Power(n) => format!("powi {n}"),
             Self::Binary(op) => format!("{op:?}").to_lowercase(),
-        }
-    }
-
-    fn apply<N: Number>(self, a: N, b: N) -> N {
-        match self {
-            Self::Unary(op) => a.unary(op),
-            Self::Power(n) => a.powi(n),
-            Self::Binary(op) => a.binary(op, b),
         }
     }
 
@@ -183,7 +215,7 @@ fn value<const N: usize>(operator: Operator, g: &mut Generator, count: &mut Coun
     let Some(truth) = operator.truth(p, q) else { return };
     count.checks += 1;
     count.values += 1;
-    let y = operator.apply(a, b);
+    let y = Form::apply(operator, a, b);
     match strain(&y, &s, 1.0, &truth) {
         None => count.unknown += 1,
         Some(strain) if strain <= 1.0 => count.strain[0] = count.strain[0].max(strain),
@@ -197,7 +229,7 @@ fn value<const N: usize>(operator: Operator, g: &mut Generator, count: &mut Coun
 /// `f(P + t D) = f(P) + t g` where P, t and D are exact floats: t in [0, 1] from symbol 0.
 fn slope<P: Apex<N> + std::fmt::Debug, const N: usize>(operator: Operator, g: &mut Generator, count: &mut Count) {
     let s: [f64; N] = std::array::from_fn(|_| symbol(g));
-    let t = affine::Affine::linear(0.5, std::array::from_fn(|i| if i == 0 { 0.5 } else { 0.0 }), 0.0);
+    let t = Affine::linear(0.5, std::array::from_fn(|i| if i == 0 { 0.5 } else { 0.0 }), 0.0);
     let tau = 0.5 * s[0] + 0.5;
     let mut operand = || {
         let p = coarse(g) * [1.0, 4.0, 16.0][g.below(3) as usize];
@@ -212,7 +244,7 @@ fn slope<P: Apex<N> + std::fmt::Debug, const N: usize>(operator: Operator, g: &m
     }
     count.checks += 1;
     count.slopes += 1;
-    let y = operator.apply(a, b);
+    let y = Form::apply(operator, a, b);
     let rise = [
         Float::with_val_round(EXACT, &to[0] - &from[1], Round::Down).0,
         Float::with_val_round(EXACT, &to[1] - &from[0], Round::Up).0,

@@ -18,3 +18,29 @@ pub(crate) fn check(function: &Function, points: u64, seed: u64, count: &mut Cou
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::box_side;
+    use crate::function::Operands;
+
+    /// Violations and the widest excess of the exponential function as it is changed.
+    fn violations(ours: fn(Operands<Interval>) -> Interval) -> usize {
+        let exp = crate::list::functions().into_iter().find(|f| f.name == "exp").expect("a function");
+        let function = Function { ours, ..exp };
+        let mut count = Count::new(function.name, function.steps);
+        check(&function, 2000, 1, &mut count);
+        box_side::check(&function, 500, 1, &mut count);
+        count.violations.len()
+    }
+
+    /// The oracle must be able to fail: bounds that are not stepped outward, that are two steps out, and a wrong domain.
+    #[test]
+    fn planted_errors_are_found() {
+        assert_eq!(violations(|[x, ..]| x.exp()), 0);
+        assert!(violations(|[x, ..]| Interval::from_bounds_or_entire(x.exp().lo().next_up(), x.exp().hi())) > 100);
+        assert!(violations(|[x, ..]| Interval::from_bounds_or_entire(x.exp().lo().next_down(), x.exp().hi())) > 100);
+        assert!(violations(|[x, ..]| if x.lo() > 700.0 { Interval::EMPTY } else { x.exp() }) > 10);
+    }
+}

@@ -6,7 +6,7 @@ use antumbra::tape::{Op, Tape};
 use antumbra_interval::Interval;
 
 /// Checks the claim that the tape is defined and continuous on a box that contains `p` and `q`. Panics if it is false.
-pub(crate) fn attack(tape: &Tape, p: [f64; 3], q: [f64; 3]) {
+pub fn attack(tape: &Tape, p: [f64; 3], q: [f64; 3]) {
     for at in [p, q] {
         if matches!(Truth::at(tape, at), Truth::Undefined) {
             panic!("claimed to be continuous, but undefined at {at:?}: {tape:?}");
@@ -22,10 +22,19 @@ pub(crate) fn attack(tape: &Tape, p: [f64; 3], q: [f64; 3]) {
 fn is_tame(tape: &Tape, p: [f64; 3], q: [f64; 3]) -> bool {
     let coarse = |x: f64| (x * 1024.0).fract() == 0.0 && x.abs() <= 64.0;
     let constants = tape.constants().iter().all(|k| coarse(k.lo()) && coarse(k.hi()));
-    let operations = tape.clauses().iter().all(|clause| match clause.op {
-        Op::Powi(n) => n.unsigned_abs() < 10,
-        Op::Binary(Binary::Pow) => false,
-        _ => true,
+    // The exponents of real powers that are constants not near 0.
+    let mut constant = vec![None; tape.slots()];
+    let operations = tape.clauses().iter().all(|clause| {
+        let tame = match clause.op {
+            Op::Powi(n) => n.unsigned_abs() < 10,
+            Op::Binary(Binary::Pow) => constant[clause.b as usize].is_some_and(|k: Interval| k.mignitude() >= 0.25),
+            _ => true,
+        };
+        constant[clause.out as usize] = match clause.op {
+            Op::Constant(k) => Some(tape.constants()[k as usize]),
+            _ => None,
+        };
+        tame
     });
     constants && operations && p.into_iter().chain(q).all(coarse)
 }

@@ -30,6 +30,7 @@ mod truth;
 mod containment;
 
 pub use arithmetic::arithmetic;
+pub use continuity::attack as attack_continuity;
 pub use evaluators::evaluators;
 pub use forms::forms;
 pub use formula::formula;
