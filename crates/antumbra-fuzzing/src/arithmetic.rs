@@ -71,7 +71,9 @@ fn elementary(operator: Operator, x: [Interval; 2], p: [f64; 2]) {
 
 type Kernel = fn(Level, [Lanes<'_>; 3], LanesMut<'_>);
 
-const KERNELS: [(&str, Kernel, fn([Interval; 3]) -> Interval); 11] = [
+type Scalar = fn([Interval; 3]) -> Interval;
+
+const KERNELS: [(&str, Kernel, Scalar); 11] = [
     ("neg", |level, [a, ..], out| lanes::neg(level, a, out), |[a, ..]| -a),
     ("abs", |level, [a, ..], out| lanes::abs(level, a, out), |[a, ..]| a.abs()),
     ("sqr", |level, [a, ..], out| lanes::sqr(level, a, out), |[a, ..]| a.sqr()),

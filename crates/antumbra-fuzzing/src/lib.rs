@@ -19,13 +19,7 @@ mod input;
 mod tape;
 mod truth;
 
-#[allow(
-    missing_docs,
-    dead_code,
-    unused_imports,
-    unreachable_pub,
-    reason = "the suite of the evaluators' tests; a part of it is used"
-)]
+#[allow(unreachable_pub, reason = "the suite of the evaluators' tests; a part of it is used")]
 #[path = "../../antumbra/tests/containment/mod.rs"]
 mod containment;
 
