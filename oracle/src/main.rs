@@ -15,7 +15,6 @@ mod point_side;
 mod sample;
 mod turns;
 
-#[allow(dead_code, reason = "the generator is the one of the interval crate's tests; a part of it is used here")]
 #[path = "../../crates/antumbra-interval/tests/nasty/mod.rs"]
 mod nasty;
 

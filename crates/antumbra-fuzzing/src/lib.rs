@@ -3,11 +3,11 @@
 //!
 //! | target | input | property |
 //! |---|---|---|
-//! | [`arithmetic`] | operands of one interval operation | the exact value at a member is in the result; batches agree |
-//! | [`formula`] | a text | no panic; printed and read again it is the same; simplified and rewritten it means the same |
-//! | [`tape`] | clauses, or a formula | bad clauses are refused; a compiled tape computes what the graph denotes |
-//! | [`evaluators`] | a tape, a box, points | values lie in the ranges of all kinds of number; no claim of continuity is false |
-//! | [`forms`] | a tape, forms, symbols | planes admit the values, slopes the rises, gradients the differences |
+//! | [`arithmetic()`] | operands of one interval operation | the exact value at a member is in the result; batches agree |
+//! | [`formula()`] | a text | no panic; printed and read again it is the same; simplified and rewritten it means the same |
+//! | [`tape()`] | clauses, or a formula | bad clauses are refused; a compiled tape computes what the graph denotes |
+//! | [`evaluators()`] | a tape, a box, points | values lie in the ranges of all kinds of number; no claim of continuity is false |
+//! | [`forms()`] | a tape, forms, symbols | planes admit the values, slopes the rises, gradients the differences |
 //!
 //! A violation panics with the data. Nothing here depends on anything but the bytes.
 mod arithmetic;

@@ -1,4 +1,4 @@
-//! Digests of the planes of every preset: `cargo run --release -p antumbra --example digest -- [SIZE] [THREADS]`.
+//! Digests of the planes of presets, all by default: `cargo run --release -p antumbra --example digest -- [SIZE] [THREADS] [PRESET]...`.
 //!
 //! Planes are promised to be the same bits for any number of threads, any optimisation of the compiler, and on any machine.
 //! Two runs can be compared: with other arguments, in another profile (`--config profile.dev.opt-level=0`), elsewhere.
@@ -53,10 +53,11 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |i: usize, default: usize| arguments.get(i).map_or(Ok(default), |text| text.parse());
     let (Ok(size), Ok(threads)) = (number(0, 32), number(1, 1)) else {
-        eprintln!("usage: digest [SIZE] [THREADS], both whole numbers");
+        eprintln!("usage: digest [SIZE] [THREADS] [PRESET]..., size and threads whole numbers");
         return ExitCode::from(2);
     };
-    for row in PRESETS {
+    let wanted = arguments.get(2..).unwrap_or_default();
+    for row in PRESETS.iter().filter(|row| wanted.is_empty() || wanted.iter().any(|name| name == row.name)) {
         // The paper's methods on the paper's surfaces.
         let methods = if row.stage.is_some() { &["certified", "paper", "rays-mc"][..] } else { &["certified"] };
         for &method in methods {
