@@ -3,7 +3,8 @@ use std::ops::{Add, Div, Mul, Neg, Sub};
 
 use crate::Interval;
 use crate::round::{
-    add_down, add_up, div_down, div_up, greater, lesser, mul_down, mul_up, sqrt_down, sqrt_up, sub_down, sub_up,
+    add_down, add_up, div_down, div_up, greater, lesser, mul_add_down, mul_add_up, mul_down, mul_up, sqrt_down,
+    sqrt_up, sub_down, sub_up,
 };
 
 impl Neg for Interval {
@@ -144,6 +145,27 @@ impl Interval {
         } else {
             Self { lo: mul_down(self.hi, x), hi: mul_up(self.lo, x) }
         }
+    }
+    /// `a b + c` with one rounding (IEEE 1788 `fma`).
+    #[must_use]
+    pub fn mul_add(self, b: Self, c: Self) -> Self {
+        let a = self;
+        if a.is_empty() | b.is_empty() | c.is_empty() {
+            return Self::EMPTY;
+        }
+        // The product is extreme at corners; c adds its own end. A corner at +inf would be NaN with c.lo = -inf.
+        let corners = [(a.lo, b.lo), (a.lo, b.hi), (a.hi, b.lo), (a.hi, b.hi)];
+        let lo = if c.lo == f64::NEG_INFINITY {
+            f64::NEG_INFINITY
+        } else {
+            corners.iter().fold(f64::INFINITY, |least, &(x, y)| lesser(mul_add_down(x, y, c.lo), least))
+        };
+        let hi = if c.hi == f64::INFINITY {
+            f64::INFINITY
+        } else {
+            corners.iter().fold(f64::NEG_INFINITY, |most, &(x, y)| greater(mul_add_up(x, y, c.hi), most))
+        };
+        Self { lo, hi }
     }
     /// `a^2`, tighter than `a * a`; never below 0.
     #[inline]

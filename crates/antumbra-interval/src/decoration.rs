@@ -144,6 +144,12 @@ impl Decorated {
         };
         self.binary(x, y.atan2(x_box), local)
     }
+    /// `a b + c`, continuous on all reals.
+    #[must_use]
+    pub fn mul_add(self, b: Self, c: Self) -> Self {
+        let interval = self.interval.mul_add(b.interval, c.interval);
+        Self { interval, decoration: self.decoration.min(b.decoration).min(c.decoration) }.checked()
+    }
     /// Pointwise minimum.
     #[must_use]
     pub fn min(self, o: Self) -> Self {

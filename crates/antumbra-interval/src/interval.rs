@@ -169,7 +169,7 @@ impl Interval {
                 && self.lo <= self.hi
     }
 
-    /// A finite member near the middle; `+-f64::MAX` if one side is unbounded, 0 if both are. NaN if empty.
+    /// The float nearest to the middle (IEEE 1788 `mid`), a member; `+-f64::MAX` if one side is unbounded, 0 if both are. NaN if empty.
     #[inline]
     #[must_use]
     pub fn mid(self) -> f64 {
@@ -184,8 +184,10 @@ impl Interval {
                 0.0
             };
         }
-        // Halves before the sum: no overflow. They may lose the last bit of a subnormal: hence the clamp.
-        lesser(greater(0.5 * self.lo + 0.5 * self.hi, self.lo), self.hi)
+        // The half sum rounded, hence a member: rounding is monotone and both bounds are floats. Halves come first only
+        // where the sum overflows: there they are exact, while half a subnormal may not be.
+        let sum = self.lo + self.hi;
+        if sum.is_finite() { 0.5 * sum } else { 0.5 * self.lo + 0.5 * self.hi }
     }
     /// An upper bound of `|x - self.mid()|` for every member `x`; 0 if empty.
     #[inline]

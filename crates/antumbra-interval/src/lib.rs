@@ -28,6 +28,7 @@
 //! |---|---|---|
 //! | `-`(unary) `abs` `min` `max` `floor` `ceil` `sign` `hull` `intersection` | 0 | always |
 //! | `+` `-` `*` `/` `sqr` `recip` `sqrt` `add_point` `mul_point` | 1 (2 for results of size `2^-1023` to `2^-1019`) | a term, factor or dividend is 0; a sum that is 0; signs are never lost |
+//! | `mul_add` | 1 | a factor is 0; signs are never lost |
 //! | `powi`, \|n\| <= 8 | 3 \|n\| | n = 0, 1; base 0 |
 //! | `powi`, \|n\| > 8 | 1 | base 0 or 1 |
 //! | `pow` | 1 | exponent 0, base 0 or 1 |

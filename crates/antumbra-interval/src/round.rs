@@ -143,6 +143,41 @@ fn vanished_quotient_down(a: f64, b: f64) -> f64 {
     }
 }
 
+/// Lower bound of `a b + c`, exact where a factor is 0, never below 0 where the value is not; `0 * inf = 0`. One step.
+///
+/// [`f64::mul_add`] is specified to round once, to nearest (IEEE 754 `fusedMultiplyAdd`). Costs a library call where the
+/// processor has no such instruction.
+#[must_use]
+pub fn mul_add_down(a: f64, b: f64, c: f64) -> f64 {
+    if (a == 0.0 && !b.is_nan()) || (b == 0.0 && !a.is_nan()) {
+        return c;
+    }
+    #[expect(clippy::disallowed_methods, reason = "one rounding is the point here, and it is specified")]
+    let r = a.mul_add(b, c);
+    if r == 0.0 {
+        // A value that vanished keeps its sign; one that is 0 is a difference of equals, which is +0.
+        if r.is_sign_negative() { -ETA } else { 0.0 }
+    } else {
+        r.next_down()
+    }
+}
+
+/// Upper bound of `a b + c`, as [`mul_add_down`].
+#[must_use]
+pub fn mul_add_up(a: f64, b: f64, c: f64) -> f64 {
+    if (a == 0.0 && !b.is_nan()) || (b == 0.0 && !a.is_nan()) {
+        return c;
+    }
+    #[expect(clippy::disallowed_methods, reason = "one rounding is the point here, and it is specified")]
+    let r = a.mul_add(b, c);
+    if r == 0.0 {
+        // Below 0, or 0, or above 0 by less than eta.
+        if r.is_sign_negative() { 0.0 } else { ETA }
+    } else {
+        r.next_up()
+    }
+}
+
 /// Lower bound of the square root, exact at 0. NaN if `a < 0`.
 #[inline(always)]
 #[must_use]

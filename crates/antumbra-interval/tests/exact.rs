@@ -160,6 +160,34 @@ fn bounded_operands_are_tight() {
     }
 }
 
+/// One step, also where the sum cancels; signs of values that underflow are kept.
+#[test]
+fn fused_products_and_sums() {
+    let mut generator = Generator(5);
+    for i in 0..CASES {
+        let (a, b) = (generator.bounded(), generator.bounded());
+        let cancels = (-(a * b)).intersection(Interval::new(f64::MIN, f64::MAX));
+        let c = if i % 2 == 0 && !cancels.is_empty() { cancels } else { generator.bounded() };
+        let got = a.mul_add(b, c);
+        let corners = [(a.lo(), b.lo()), (a.lo(), b.hi()), (a.hi(), b.lo()), (a.hi(), b.hi())];
+        let products = corners.map(|(x, y)| exact(x) * exact(y));
+        let least = products.iter().min().expect("corners").clone() + exact(c.lo());
+        let most = products.iter().max().expect("corners").clone() + exact(c.hi());
+        assert!(is_lower(got.lo(), &least, 1) && is_upper(got.hi(), &most, 1), "{a} * {b} + {c} = {got}");
+        assert!(least < Relaxed::ZERO || got.lo() >= 0.0, "{a} * {b} + {c} = {got}: a sign is lost");
+        assert!(most > Relaxed::ZERO || got.hi() <= 0.0, "{a} * {b} + {c} = {got}: a sign is lost");
+    }
+    let (inf, nan) = (f64::INFINITY, f64::NAN);
+    assert_eq!((round::mul_add_down(0.0, inf, 3.0), round::mul_add_up(-inf, 0.0, 3.0)), (3.0, 3.0));
+    assert_eq!(round::mul_add_down(f64::MAX, 2.0, 0.0), f64::MAX);
+    for [a, b, c] in [[nan, 0.0, 1.0], [0.0, nan, 1.0], [1.0, 1.0, nan], [inf, 1.0, -inf]] {
+        assert!(round::mul_add_down(a, b, c).is_nan() && round::mul_add_up(a, b, c).is_nan());
+    }
+    assert_eq!(Interval::new(0.0, inf).mul_add(Interval::ENTIRE, Interval::ENTIRE), Interval::ENTIRE);
+    assert_eq!(Interval::ENTIRE.mul_add(Interval::ZERO, Interval::ONE), Interval::ONE);
+    assert_eq!(Interval::ONE.mul_add(Interval::EMPTY, Interval::ONE), Interval::EMPTY);
+}
+
 #[test]
 fn any_operands_are_enclosed() {
     let mut generator = Generator(3);

@@ -27,6 +27,82 @@ const BINARY: [Binary; 6] = [
     ("max", lanes::max, Interval::max),
 ];
 
+fn mul_add(level: Level, a: &[Interval], b: &[Interval], c: &[Interval]) -> Batch {
+    let mut out = Batch::blank(a.len());
+    lanes::mul_add(level, Batch::of(a).lanes(), Batch::of(b).lanes(), Batch::of(c).lanes(), out.lanes_mut());
+    out
+}
+
+/// Triples: the pairs with a third interval each, one in three of which cancels the product.
+fn triples(generated: usize) -> [Vec<Interval>; 3] {
+    let (a, b) = pairs(generated);
+    let mut generator = Generator(22);
+    let third = |i: usize, generator: &mut Generator| {
+        let product = -(a[i] * b[i]);
+        if generator.below(3) == 0 && !product.is_empty() { product } else { generator.any() }
+    };
+    let c = (0..a.len()).map(|i| third(i, &mut generator)).collect();
+    [a, b, c]
+}
+
+#[test]
+fn portable_fused_lanes_are_the_scalar_operator() {
+    let [a, b, c] = triples(50_000);
+    let out = mul_add(Level::Portable, &a, &b, &c);
+    for i in 0..a.len() {
+        assert_eq!(out.interval(i), a[i].mul_add(b[i], c[i]), "{} {} {}", a[i], b[i], c[i]);
+    }
+}
+
+/// As for the other kernels: inside the portable bounds by at most a step, tightest among finite operands, any length, NaN.
+#[test]
+fn directed_fused_lanes() {
+    let Some(level) = directed() else { return };
+    let [a, b, c] = triples(100_000);
+    let out = mul_add(level, &a, &b, &c);
+    let exact = |x: f64| Relaxed::try_from(x).expect("a finite number");
+    for i in 0..a.len() {
+        let (got, scalar) = (out.interval(i), a[i].mul_add(b[i], c[i]));
+        let text = format!("{} {} {}: {got} against {scalar}", a[i], b[i], c[i]);
+        assert!(nasty::excess(scalar, got).is_some_and(|steps| steps <= 1), "{text}");
+        if ![a[i], b[i], c[i]].iter().all(|x| x.is_bounded()) {
+            continue;
+        }
+        let corners = [(a[i].lo(), b[i].lo()), (a[i].lo(), b[i].hi()), (a[i].hi(), b[i].lo()), (a[i].hi(), b[i].hi())];
+        let products = corners.map(|(x, y)| exact(x) * exact(y));
+        let least = products.iter().min().expect("corners").clone() + exact(c[i].lo());
+        let most = products.iter().max().expect("corners").clone() + exact(c[i].hi());
+        let lower = (got.lo() == f64::NEG_INFINITY && least < exact(f64::MIN))
+            || (got.lo().is_finite()
+                && exact(got.lo()) <= least
+                && (got.lo() == f64::MAX || exact(got.lo().next_up()) > least));
+        let upper = (got.hi() == f64::INFINITY && most > exact(f64::MAX))
+            || (got.hi().is_finite()
+                && exact(got.hi()) >= most
+                && (got.hi() == f64::MIN || exact(got.hi().next_down()) < most));
+        assert!(lower && upper, "{text}");
+    }
+    for n in 0..=33 {
+        let part = mul_add(level, &a[..n], &b[..n], &c[..n]);
+        assert!(part.lo == out.lo[..n] && part.hi == out.hi[..n], "{n} lanes");
+    }
+}
+
+#[test]
+fn a_nan_makes_a_fused_lane_say_nothing() {
+    for level in [Some(Level::Portable), directed()].into_iter().flatten() {
+        for place in 0..3 {
+            let mut operands = [(); 3].map(|()| Batch::of(&[Interval::new(1.0, 2.0); 11]));
+            operands[place].lo[4] = f64::NAN;
+            let mut out = Batch::blank(11);
+            let [a, b, c] = &operands;
+            lanes::mul_add(level, a.lanes(), b.lanes(), c.lanes(), out.lanes_mut());
+            assert_eq!(out.interval(4), Interval::ENTIRE);
+            assert!((0..11).filter(|i| *i != 4).all(|i| out.interval(i).is_bounded()));
+        }
+    }
+}
+
 /// The levels to test besides the portable one.
 fn directed() -> Option<Level> {
     let level = Level::detect();

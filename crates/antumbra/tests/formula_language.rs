@@ -217,3 +217,19 @@ fn a_formula_with_constants_that_only_intervals_prove_to_be_defined() {
     assert!(!formula.is_continuous_everywhere(), "the sign of 5 - sqrt(5) is not known without intervals");
     assert_eq!(Formula::parse(&formula.to_string()).unwrap(), formula);
 }
+
+/// Found by the fuzzer: a constant of many places was printed as a quotient, which is another formula where it is too long
+/// to be folded.
+#[test]
+fn constants_of_many_places_are_printed_as_constants() {
+    let places = |n: usize| format!("x + 0.{}1", "0".repeat(n - 1));
+    let mut texts = vec!["x + 1e-320".to_owned(), "y^0.1 - 12.5e-30".to_owned(), "-3e-25 x".to_owned()];
+    texts.extend([19, 20, 21, 399, 400, 401, 1500].map(places));
+    texts.push(format!("x + {}e-400", "0.7".to_owned() + &"1234567890".repeat(190)));
+    for text in texts {
+        let (written, simple) = (Formula::parse_as_written(&text).unwrap(), Formula::parse(&text).unwrap());
+        assert_eq!(Formula::parse_as_written(&written.to_string()).unwrap(), written, "{text}");
+        assert_eq!(Formula::parse(&simple.to_string()).unwrap(), simple, "{text}");
+    }
+    assert_eq!(canonical("x + 0.00000000000000000000000125"), "x + 125e-26");
+}

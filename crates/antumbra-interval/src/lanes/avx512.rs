@@ -12,9 +12,9 @@
 use std::arch::x86_64::{
     __m512d, __mmask8, _CMP_EQ_OQ, _CMP_GE_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _CMP_NEQ_UQ, _CMP_UNORD_Q, _MM_FROUND_NO_EXC,
     _MM_FROUND_TO_NEG_INF, _MM_FROUND_TO_POS_INF, _mm512_add_round_pd, _mm512_castpd_si512, _mm512_castsi512_pd,
-    _mm512_cmp_pd_mask, _mm512_div_round_pd, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_maskz_mul_round_pd,
-    _mm512_max_pd, _mm512_min_pd, _mm512_mul_round_pd, _mm512_set1_epi64, _mm512_set1_pd, _mm512_setzero_pd,
-    _mm512_sqrt_round_pd, _mm512_storeu_pd, _mm512_sub_round_pd, _mm512_xor_epi64,
+    _mm512_cmp_pd_mask, _mm512_div_round_pd, _mm512_loadu_pd, _mm512_mask_blend_pd, _mm512_mask3_fmadd_round_pd,
+    _mm512_maskz_mul_round_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_round_pd, _mm512_set1_epi64, _mm512_set1_pd,
+    _mm512_setzero_pd, _mm512_sqrt_round_pd, _mm512_storeu_pd, _mm512_sub_round_pd, _mm512_xor_epi64,
 };
 
 use super::{Lanes, LanesMut};
@@ -134,6 +134,28 @@ binary! {
     div = div_lanes, quotient
     min = min_lanes, minimum
     max = max_lanes, maximum
+}
+
+pub(super) fn mul_add(_: Avx512, a: Lanes<'_>, b: Lanes<'_>, c: Lanes<'_>, out: LanesMut<'_>) {
+    // SAFETY: an Avx512 exists only where the processor has the feature.
+    unsafe { mul_add_lanes(a, b, c, out) }
+}
+
+/// Every vector through the copy that fills up the last one: three operands are rare, and the code is short.
+#[target_feature(enable = "avx512f")]
+fn mul_add_lanes(a: Lanes<'_>, b: Lanes<'_>, c: Lanes<'_>, out: LanesMut<'_>) {
+    for start in (0..out.lo.len()).step_by(WIDTH) {
+        let end = usize::min(start + WIDTH, out.lo.len());
+        let a = load(&padded(&a.lo[start..end]), &padded(&a.hi[start..end]));
+        let b = load(&padded(&b.lo[start..end]), &padded(&b.hi[start..end]));
+        let c = load(&padded(&c.lo[start..end]), &padded(&c.hi[start..end]));
+        let all = inhabited(a) & inhabited(b) & inhabited(c);
+        let value = replaced(fused(a, b, c), all, has_nan(a) | has_nan(b) | has_nan(c));
+        let (mut lo, mut hi) = ([0.0; WIDTH], [0.0; WIDTH]);
+        store(value, &mut lo, &mut hi);
+        out.lo[start..end].copy_from_slice(&lo[..end - start]);
+        out.hi[start..end].copy_from_slice(&hi[..end - start]);
+    }
 }
 
 /// Lanes that have members: not the empty ones, not those with a NaN.
@@ -304,4 +326,38 @@ fn minimum(a: Vector, b: Vector) -> Vector {
 #[target_feature(enable = "avx512f")]
 fn maximum(a: Vector, b: Vector) -> Vector {
     Vector { lo: _mm512_max_pd(a.lo, b.lo), hi: _mm512_max_pd(a.hi, b.hi) }
+}
+
+#[inline]
+#[target_feature(enable = "avx512f")]
+fn fused(a: Vector, b: Vector, c: Vector) -> Vector {
+    // A corner with a zero factor is not multiplied but c's end, by its mask: 0 * inf = 0.
+    let (al, ah, bl, bh) = (nonzero(a.lo), nonzero(a.hi), nonzero(b.lo), nonzero(b.hi));
+    let lo = _mm512_min_pd(
+        _mm512_min_pd(
+            _mm512_mask3_fmadd_round_pd::<DOWN>(a.lo, b.lo, c.lo, al & bl),
+            _mm512_mask3_fmadd_round_pd::<DOWN>(a.lo, b.hi, c.lo, al & bh),
+        ),
+        _mm512_min_pd(
+            _mm512_mask3_fmadd_round_pd::<DOWN>(a.hi, b.lo, c.lo, ah & bl),
+            _mm512_mask3_fmadd_round_pd::<DOWN>(a.hi, b.hi, c.lo, ah & bh),
+        ),
+    );
+    let hi = _mm512_max_pd(
+        _mm512_max_pd(
+            _mm512_mask3_fmadd_round_pd::<UP>(a.lo, b.lo, c.hi, al & bl),
+            _mm512_mask3_fmadd_round_pd::<UP>(a.lo, b.hi, c.hi, al & bh),
+        ),
+        _mm512_max_pd(
+            _mm512_mask3_fmadd_round_pd::<UP>(a.hi, b.lo, c.hi, ah & bl),
+            _mm512_mask3_fmadd_round_pd::<UP>(a.hi, b.hi, c.hi, ah & bh),
+        ),
+    );
+    // inf - inf, the one way to a NaN, takes an unbounded c: then so is the result, whatever the corners are.
+    let minus_infinity = _mm512_set1_pd(f64::NEG_INFINITY);
+    let infinity = _mm512_set1_pd(f64::INFINITY);
+    Vector {
+        lo: _mm512_mask_blend_pd(_mm512_cmp_pd_mask::<_CMP_EQ_OQ>(c.lo, minus_infinity), lo, minus_infinity),
+        hi: _mm512_mask_blend_pd(_mm512_cmp_pd_mask::<_CMP_EQ_OQ>(c.hi, infinity), hi, infinity),
+    }
 }

@@ -193,3 +193,16 @@ binary! {
     /// Pointwise maximum in every lane, exact.
     max
 }
+
+/// `a b + c` in every lane, rounded once.
+///
+/// Panics if the lengths differ.
+#[inline]
+pub fn mul_add(level: Level, a: Lanes<'_>, b: Lanes<'_>, c: Lanes<'_>, out: LanesMut<'_>) {
+    assert!(a.len() == out.len() && b.len() == out.len() && c.len() == out.len(), "as many results as operands");
+    match level {
+        Level::Portable => portable::mul_add(a, b, c, out),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx512(proof) => avx512::mul_add(proof, a, b, c, out),
+    }
+}

@@ -59,6 +59,17 @@ macro_rules! binary {
 unary! { neg = negative abs = absolute sqr = square sqrt = root }
 binary! { add = sum sub = difference mul = product div = quotient min = minimum max = maximum }
 
+/// Lane by lane: a fused operation has no faster portable form.
+pub(super) fn mul_add(a: Lanes<'_>, b: Lanes<'_>, c: Lanes<'_>, out: LanesMut<'_>) {
+    for i in 0..out.lo.len() {
+        // A NaN bound makes no interval: every number, as `get` says.
+        let operands = [(a.lo[i], a.hi[i]), (b.lo[i], b.hi[i]), (c.lo[i], c.hi[i])];
+        let value =
+            if operands.into_iter().any(has_nan) { Interval::ENTIRE } else { a.get(i).mul_add(b.get(i), c.get(i)) };
+        (out.lo[i], out.hi[i]) = (value.lo, value.hi);
+    }
+}
+
 #[inline(always)]
 fn negative(a: Pair) -> Pair {
     (-a.1, -a.0)

@@ -110,9 +110,16 @@ pub(crate) fn excess(x: Interval, tight: Interval) -> Option<u64> {
     if tight.is_empty() {
         return Some(if x.is_empty() { 0 } else { u64::MAX });
     }
-    let rank = |v: f64| {
-        let bits = (v + 0.0).to_bits() as i64;
-        i128::from(if bits < 0 { i64::MIN - bits } else { bits })
-    };
     Some((rank(tight.lo()) - rank(x.lo())).max(rank(x.hi()) - rank(tight.hi())) as u64)
+}
+
+/// How many floats `upper` is above `least`, which it must not be below.
+pub(crate) fn excess_of_bound(upper: f64, least: f64) -> u64 {
+    u64::try_from(rank(upper) - rank(least)).expect("an upper bound")
+}
+
+/// Place of a float among all floats; both zeros have one.
+fn rank(v: f64) -> i128 {
+    let bits = (v + 0.0).to_bits() as i64;
+    i128::from(if bits < 0 { i64::MIN - bits } else { bits })
 }

@@ -139,7 +139,7 @@ fn name(op: Unary) -> &'static str {
     }
 }
 
-/// A decimal where the value is a short one, else a fraction: `0.25`, `-3`, `1/3`.
+/// A decimal where the value is one, else a fraction: `0.25`, `-3`, `1e-30`, `1/3`.
 fn write_rational(q: &BigRational, least: Tightness, f: &mut fmt::Formatter<'_>) -> fmt::Result {
     let (text, own) = match decimal(&q.abs()) {
         Some(text) if q.is_negative() => (format!("-{text}"), Tightness::Signed),
@@ -149,7 +149,15 @@ fn write_rational(q: &BigRational, least: Tightness, f: &mut fmt::Formatter<'_>)
     if own < least { write!(f, "({text})") } else { f.write_str(&text) }
 }
 
-/// The decimal of at most 20 places that equals `q >= 0`.
+/// Most places of a number that the language reads: 2000 digits and an exponent of -400.
+const MOST_PLACES: u32 = 2400;
+/// Up to so many places a number is written without an exponent.
+const PLAIN_PLACES: usize = 20;
+/// Smallest exponent that the language reads, negated.
+const MOST_EXPONENT: usize = 400;
+
+/// The decimal that equals `q >= 0`. Every constant that was written in a text has one, so that it is read as a constant
+/// again, and not as a quotient.
 fn decimal(q: &BigRational) -> Option<String> {
     if q.is_integer() {
         return Some(q.numer().to_string());
@@ -157,17 +165,27 @@ fn decimal(q: &BigRational) -> Option<String> {
     // The places needed are the larger exponent of 2 and 5 in the denominator.
     let (mut rest, mut places) = (q.denom().clone(), [0_u32; 2]);
     for (prime, count) in [BigInt::from(2), BigInt::from(5)].iter().zip(&mut places) {
-        while *count <= 20 && (&rest % prime).is_zero() {
+        while *count <= MOST_PLACES && (&rest % prime).is_zero() {
             rest /= prime;
             *count += 1;
         }
     }
     let places = places[0].max(places[1]);
-    if !rest.is_one() || places > 20 {
+    if !rest.is_one() || places > MOST_PLACES {
         return None;
     }
     let digits = (q * BigRational::from_integer(Pow::pow(BigInt::from(10), places))).to_integer().to_string();
-    let digits = format!("{digits:0>width$}", width = places as usize + 1);
-    let (whole, fraction) = digits.split_at(digits.len() - places as usize);
-    Some(format!("{whole}.{fraction}"))
+    let places = places as usize;
+    if places <= PLAIN_PLACES {
+        let digits = format!("{digits:0>width$}", width = places + 1);
+        let (whole, fraction) = digits.split_at(digits.len() - places);
+        return Some(format!("{whole}.{fraction}"));
+    }
+    if places <= MOST_EXPONENT {
+        return Some(format!("{digits}e-{places}"));
+    }
+    let fraction = places - MOST_EXPONENT;
+    let digits = format!("{digits:0>fraction$}");
+    let (whole, fraction) = digits.split_at(digits.len() - fraction);
+    Some(format!("{whole}.{fraction}e-{MOST_EXPONENT}"))
 }

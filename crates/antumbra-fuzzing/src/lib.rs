@@ -1,0 +1,38 @@
+//! Properties that hold whatever the input bytes are. `fuzz/` runs them under libFuzzer, `tests/` on random bytes and on
+//! the finds of earlier runs.
+//!
+//! | target | input | property |
+//! |---|---|---|
+//! | [`arithmetic()`] | operands of one interval operation | the exact value at a member is in the result; batches agree |
+//! | [`formula()`] | a text | no panic; printed and read again it is the same; simplified and rewritten it means the same |
+//! | [`tape()`] | clauses, or a formula | bad clauses are refused; a compiled tape computes what the graph denotes |
+//! | [`evaluators()`] | a tape, a box, points | values lie in the ranges of all kinds of number; no claim of continuity is false |
+//! | [`forms()`] | a tape, forms, symbols | planes admit the values, slopes the rises, gradients the differences |
+//!
+//! A violation panics with the data. Nothing here depends on anything but the bytes.
+mod arithmetic;
+mod continuity;
+mod evaluators;
+mod forms;
+mod formula;
+mod input;
+mod tape;
+mod truth;
+
+#[allow(unreachable_pub, reason = "the suite of the evaluators' tests; a part of it is used")]
+#[path = "../../antumbra/tests/containment/mod.rs"]
+mod containment;
+
+pub use arithmetic::arithmetic;
+pub use continuity::attack as attack_continuity;
+pub use evaluators::evaluators;
+pub use forms::forms;
+pub use formula::formula;
+pub use tape::tape;
+
+/// A property of input bytes. Panics where it does not hold.
+pub type Target = fn(&[u8]);
+
+/// Every target by name.
+pub const TARGETS: [(&str, Target); 5] =
+    [("arithmetic", arithmetic), ("formula", formula), ("tape", tape), ("evaluators", evaluators), ("forms", forms)];
