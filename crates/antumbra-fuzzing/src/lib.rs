@@ -5,6 +5,7 @@
 //! |---|---|---|
 //! | [`arithmetic()`] | operands of one interval operation | the exact value at a member is in the result; batches agree |
 //! | [`formula()`] | a text | no panic; printed and read again it is the same; simplified and rewritten it means the same |
+//! | [`scene()`] | a scene file | no panic; written and read again it is the same |
 //! | [`tape()`] | clauses, or a formula | bad clauses are refused; a compiled tape computes what the graph denotes |
 //! | [`evaluators()`] | a tape, a box, points | values lie in the ranges of all kinds of number; no claim of continuity is false |
 //! | [`forms()`] | a tape, forms, symbols | planes admit the values, slopes the rises, gradients the differences |
@@ -16,6 +17,7 @@ mod evaluators;
 mod forms;
 mod formula;
 mod input;
+mod scene;
 mod tape;
 mod truth;
 
@@ -28,11 +30,18 @@ pub use continuity::attack as attack_continuity;
 pub use evaluators::evaluators;
 pub use forms::forms;
 pub use formula::formula;
+pub use scene::scene;
 pub use tape::tape;
 
 /// A property of input bytes. Panics where it does not hold.
 pub type Target = fn(&[u8]);
 
 /// Every target by name.
-pub const TARGETS: [(&str, Target); 5] =
-    [("arithmetic", arithmetic), ("formula", formula), ("tape", tape), ("evaluators", evaluators), ("forms", forms)];
+pub const TARGETS: [(&str, Target); 6] = [
+    ("arithmetic", arithmetic),
+    ("formula", formula),
+    ("tape", tape),
+    ("evaluators", evaluators),
+    ("forms", forms),
+    ("scene", scene),
+];

@@ -48,6 +48,11 @@ fn forms_on_random_bytes() {
     random("forms", 3_000);
 }
 
+#[test]
+fn scenes_of_random_bytes() {
+    random("scene", 3_000);
+}
+
 /// Inputs that once broke something.
 #[test]
 fn finds_of_the_fuzzer_are_right_now() {
