@@ -22,6 +22,8 @@ pub(crate) enum Seen {
 
 /// Sections of equal length into which a ray is cut at first.
 const SAMPLES: usize = 96;
+/// Values below this share of the greatest one on a ray are computed in twice the precision.
+const NEAR: f64 = 1e-8;
 /// Golden section: the section that stays.
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 
@@ -46,7 +48,7 @@ impl Judge {
     fn value(&self, p: &Point, d: &Point, t: f64, scale: f64, slots: &mut Slots) -> f64 {
         let at: Point = std::array::from_fn(|k| p[k] + d[k] * t.into());
         let rough = value_at(&self.tape, Vec3(at.map(|x| x.hi)), &mut slots.single);
-        if rough.abs() > 1e-8 * scale { rough } else { run(&self.tape, at, &mut slots.double).hi }
+        if rough.abs() > NEAR * scale { rough } else { run(&self.tape, at, &mut slots.double).hi }
     }
 
     /// Parameters in `[from, to]` at which the ray is inside the region.
@@ -83,7 +85,9 @@ impl Judge {
         let mut values: Vec<f64> = places.iter().map(|&t| self.value(p, d, t, 0.0, &mut slots)).collect();
         let scale = values.iter().fold(0.0_f64, |m, v| if v.is_finite() { m.max(v.abs()) } else { m });
         for (v, &t) in values.iter_mut().zip(&places) {
-            *v = self.value(p, d, t, scale, &mut slots);
+            if v.is_nan() || v.abs() <= NEAR * scale {
+                *v = self.value(p, d, t, scale, &mut slots);
+            }
         }
         let near = self.noise * scale;
         if let Some(side) = leaving
