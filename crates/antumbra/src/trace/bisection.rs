@@ -18,7 +18,7 @@ pub struct Search<'a> {
     pub bisection: Bisection,
     /// The rays of the beam. Where the natural extension over a box admits a zero, the affine form over these rays is asked
     /// too: it is much nearer to the united extension that the paper speaks of. Pixel beams need it, or they report a rim
-    /// of pixels around the surface (measured on Chubs at 512 x 512: 10 % of the picture, against 1 %).
+    /// of pixels around the surface (Chubs at 512 x 512: 11 % more hits than centre rays have, against 1.6 %).
     pub rays: Option<&'a Fan>,
 }
 
