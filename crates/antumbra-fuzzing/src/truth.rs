@@ -147,3 +147,29 @@ fn binary(op: Binary, a: &BigRational, b: &BigRational) -> Option<BigRational> {
         Binary::Pow | Binary::Atan2 => return None,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use antumbra::expr::Formula;
+
+    fn truth(text: &str, x: f64) -> Truth {
+        let tape = Tape::compile(&Formula::parse_as_written(text).unwrap()).unwrap();
+        Truth::at(&tape, [x, 1.0, 2.0])
+    }
+
+    /// The checks must be able to fail: enclosures that miss the value by one float, and points outside of domains.
+    #[test]
+    fn narrow_enclosures_and_domains_are_noticed() {
+        // 3^2 / 7 is no float.
+        let value = truth("x^2 / 7", 3.0);
+        let tight = value.enclosure().unwrap();
+        assert!(tight.width() < 1e-15 && value.possibly_in(tight));
+        assert!(!value.possibly_in(Interval::point(tight.lo())) && !value.possibly_in(Interval::point(tight.hi())));
+        let sine = truth("sin(x)", 3.0);
+        assert!(sine.possibly_in(Interval::new(0.14, 0.15)) && !sine.possibly_in(Interval::new(0.15, 0.16)));
+        for (text, x) in [("1/x", 0.0), ("x^-2 - x^-2", 0.0), ("sqrt(x)", -1.0), ("0 ln(x)", 0.0), ("asin(x)", 1.5)] {
+            assert!(matches!(truth(text, x), Truth::Undefined), "{text} at {x}");
+        }
+    }
+}
