@@ -83,10 +83,9 @@ pub fn areas(curves: &[Curve], enough: f64, s: &mut Scratch) -> Areas {
     let mut band = Tracker::default();
     for k in 0..strips {
         let strip = Strip::number(k, strips);
-        let (inner, outer) = if let [curve] = s.curves.as_slice() {
-            single(curve, strip, &mut band)
-        } else {
-            several(strip, s)
+        let (inner, outer) = match s.curves.as_slice() {
+            [curve] => single(curve, strip, &mut band, &mut s.halfplanes),
+            curves => several(curves, strip, &mut s.bounds, &mut s.halfplanes),
         };
         lit = add_down(lit, inner);
         open = add_up(open, outer);
@@ -306,57 +305,55 @@ fn length_up(line: &Line) -> f64 {
 }
 
 /// Mean lengths, in `[0, 2]`, of the lit and of the not hidden part of a strip with one curve.
-fn single(curve: &Curve, strip: Strip, band: &mut Tracker) -> (f64, f64) {
-    let inner = Along::tangent(&curve.lower, strip).and_then(|p| p.above(curve.error));
-    let outer = if curve.hides && curve.upper == curve.lower || !curve.hides {
+fn single(curve: &Curve, strip: Strip, band: &mut Tracker, s: &mut halfplanes::Scratch) -> (f64, f64) {
+    let inside = Along::tangent(&curve.lower, strip);
+    let inner = inside.as_ref().and_then(|p| p.above(curve.error));
+    let outer = if !curve.hides {
         None
+    } else if curve.upper == curve.lower {
+        inside.as_ref().and_then(|p| p.below(curve.error))
     } else {
-        Along::tangent(&curve.upper, strip)
-    };
-    let outer = match outer {
-        Some(along) => along.below(curve.error),
-        None if curve.hides => Along::tangent(&curve.upper, strip).and_then(|p| p.below(curve.error)),
-        None => None,
+        Along::tangent(&curve.upper, strip).and_then(|p| p.below(curve.error))
     };
     band.add(strip, inner.as_ref(), outer.as_ref());
-    let flat = |inner: bool| flat(if inner { &curve.lower } else { &curve.upper }, curve.error, strip, inner);
-    let lit = inner.map_or_else(|| halfplanes::mean_down(&[flat(true)]), |line| length_down(&line));
-    let open = match outer {
-        Some(line) => length_up(&line),
-        None if curve.hides => halfplanes::mean_up(&[flat(false)]),
+    let lit = match &inner {
+        Some(line) => length_down(line),
+        None => halfplanes::mean_in(&[flat(&curve.lower, curve.error, strip, true)], s),
+    };
+    let open = match &outer {
+        Some(line) => length_up(line),
+        None if curve.hides => halfplanes::mean_out(&[flat(&curve.upper, curve.error, strip, false)], s),
         None => 2.0,
     };
     // NaN proves nothing.
     (if lit > 0.0 { lit } else { 0.0 }, if open < 2.0 { open } else { 2.0 })
 }
 
-/// The same with several curves.
-fn several(strip: Strip, s: &mut Scratch) -> (f64, f64) {
+/// The same with several curves: half planes `c + (coefficient of y) y + (coefficient of a) a >= 0`.
+fn several(curves: &[Curve], strip: Strip, bounds: &mut Vec<Bound>, s: &mut halfplanes::Scratch) -> (f64, f64) {
     let mut mean = |inner: bool| {
-        s.bounds.clear();
-        for curve in s.curves.iter().filter(|c| inner || c.hides) {
+        bounds.clear();
+        for curve in curves.iter().filter(|c| inner || c.hides) {
             let p = if inner { &curve.lower } else { &curve.upper };
-            let line = Along::tangent(p, strip)
-                .and_then(|p| if inner { p.above(curve.error) } else { p.below(curve.error) });
-            s.bounds.push(match line {
+            let along = Along::tangent(p, strip);
+            let line = along.and_then(|p| if inner { p.above(curve.error) } else { p.below(curve.error) });
+            bounds.push(match line {
                 // s a - s m - s g y - h >= 0
                 Some(Line { sign, m, g, h }) => {
                     let c = if inner { sub_down(-sign * m, h) } else { sub_up(-sign * m, h) };
-                    Bound { c, a: sign, b: -sign * g }
+                    Bound { c, a: -sign * g, b: sign }
                 }
                 None => flat(p, curve.error, strip, inner),
             });
         }
-        if inner {
-            halfplanes::mean_in(&s.bounds, &mut s.halfplanes)
-        } else {
-            halfplanes::mean_out(&s.bounds, &mut s.halfplanes)
-        }
+        if inner { halfplanes::mean_in(bounds, s) } else { halfplanes::mean_out(bounds, s) }
     };
-    (mean(true), mean(false))
+    let (lit, open) = (mean(true), mean(false));
+    (if lit > 0.0 { lit } else { 0.0 }, if open < 2.0 { open } else { 2.0 })
 }
 
-/// Linear bound of a polynomial in a strip: `F -+ e >= c + la a + lb y` (inner: below F, else above).
+/// Linear bound of a polynomial in a strip, as a half plane over `(y, a)`: inner, `F - e` is at least it; else `F + e` is at
+/// most it.
 ///
 /// `a^2 = 1/2 +- 1/2`, `y^2 = 1/2 +- 1/2`, `a y = 0 +- 1`. At most 20 roundings on terms of sum `size`.
 fn flat(p: &Paraboloid, e: f64, strip: Strip, inner: bool) -> Bound {
@@ -366,7 +363,7 @@ fn flat(p: &Paraboloid, e: f64, strip: Strip, inner: bool) -> Bound {
     let (sa, sb) = (0.5 * aa, 0.5 * bb * d * d);
     let middle = p.c + bm * (lb + bb * bm) + sa + sb;
     let rest = sa.abs() + sb.abs() + ab.abs() * d + e + (64.0 * U * (p.size() + e) + f64::MIN_POSITIVE);
-    let (a, b) = (la + ab * bm, d * (lb + 2.0 * bb * bm));
+    let (a, b) = (d * (lb + 2.0 * bb * bm), la + ab * bm);
     Bound { c: if inner { sub_down(middle, rest) } else { add_up(middle, rest) }, a, b }
 }
 
@@ -406,5 +403,128 @@ impl Tracker {
             if lit_above { [from, to] } else { [-to, -from] }
         });
         Some(Band { across, lit_above, undecided })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn at(p: &Paraboloid, a: f64, b: f64) -> f64 {
+        p.c + a * (p.l[0] + p.q[0] * a + p.q[2] * b) + b * (p.l[1] + p.q[1] * b)
+    }
+
+    struct Random(u64);
+    impl Random {
+        fn next(&mut self) -> f64 {
+            self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+            (self.0 >> 11) as f64 / (1u64 << 52) as f64 - 1.0
+        }
+        fn paraboloid(&mut self, bend: f64) -> Paraboloid {
+            Paraboloid {
+                c: self.next(),
+                l: [self.next(), self.next()],
+                q: [bend * self.next(), bend * self.next(), bend * self.next()],
+            }
+        }
+    }
+
+    /// Share of the square in which `inside` holds, by the middles of many cells.
+    fn counted(inside: impl Fn(f64, f64) -> bool) -> f64 {
+        const N: usize = 400;
+        let place = |k: usize| (2 * k + 1) as f64 / N as f64 - 1.0;
+        let count = (0..N * N).filter(|k| inside(place(k % N), place(k / N))).count();
+        count as f64 / (N * N) as f64
+    }
+
+    #[test]
+    fn lines_beside_curves_keep_to_their_side() {
+        let mut r = Random(3);
+        let mut used = 0;
+        for round in 0..4000 {
+            let p = r.paraboloid([0.0, 0.1, 0.5, 1e-9][round % 4]);
+            let e = [0.0, 1e-3, 0.1][round % 3];
+            let strip = Strip::number(round % 8, 8);
+            let Some(along) = Along::tangent(&p, strip) else { continue };
+            let (inner, outer) = (along.above(e), along.below(e));
+            used += usize::from(inner.is_some() && outer.is_some());
+            for _ in 0..200 {
+                let (a, y) = (r.next(), r.next());
+                let value = at(&p, a, strip.middle + strip.half * y);
+                let beyond = |l: &Line| l.sign * a - (l.sign * (l.m + l.g * y) + l.h);
+                assert!(!inner.is_some_and(|l| beyond(&l) >= 0.0) || value >= e - 1e-14, "{p:?} {e} {inner:?}");
+                assert!(!outer.is_some_and(|l| beyond(&l) < 0.0) || value <= -e + 1e-14, "{p:?} {e} {outer:?}");
+            }
+        }
+        assert!(used > 1000, "{used}");
+    }
+
+    #[test]
+    fn one_curve_is_enclosed_tightly_and_its_band_is_true() {
+        let mut r = Random(5);
+        let mut bands = 0;
+        for round in 0..300 {
+            let p = r.paraboloid([0.02, 0.1, 0.3, 1.0][round % 4]);
+            let error = [0.0, 1e-3, 0.05][round % 3];
+            let curve = Curve { lower: p, upper: p, error, hides: round % 10 != 9 };
+            let got = areas(&[curve], 1e-4, &mut Scratch::default());
+            let lit = counted(|a, b| at(&p, a, b) >= error);
+            let open = if curve.hides { counted(|a, b| at(&p, a, b) >= -error) } else { 1.0 };
+            assert!(got.lit <= lit + 2e-3, "{curve:?}: {got:?}, {lit}");
+            assert!(got.open >= open - 2e-3, "{curve:?}: {got:?}, {open}");
+            if round % 4 == 0 && curve.hides {
+                assert!(got.lit >= lit - 4e-3 && got.open <= open + 4e-3, "{curve:?}: {got:?}, {lit} {open}");
+            }
+            let Some(band) = got.band else { continue };
+            bands += 1;
+            for _ in 0..2000 {
+                let (x, y) = (r.next(), r.next());
+                let (a, b) = if band.across == 0 { (x, y) } else { (y, x) };
+                let [from, to] = band.undecided[usize::from(y >= 0.0)];
+                let value = at(&p, a, b);
+                let (lit, hidden) = if band.lit_above { (x > to, x < from) } else { (x < from, x > to) };
+                assert!(!lit || value >= error - 1e-14, "{p:?}: {band:?} at {a} {b}");
+                assert!(!hidden || value <= -error + 1e-14, "{p:?}: {band:?} at {a} {b}");
+            }
+        }
+        assert!(bands > 100, "{bands}");
+    }
+
+    #[test]
+    fn several_curves_are_enclosed() {
+        let mut r = Random(7);
+        for round in 0..200 {
+            let curves: Vec<Curve> = (0..2 + round % 3)
+                .map(|k| {
+                    let upper = r.paraboloid(0.05);
+                    let lower = Paraboloid { c: upper.c - [0.0, 0.02][k % 2], ..upper };
+                    Curve { lower, upper, error: 1e-3, hides: k != 2 }
+                })
+                .collect();
+            let got = areas(&curves, 1e-4, &mut Scratch::default());
+            let lit = counted(|a, b| curves.iter().all(|c| at(&c.lower, a, b) >= c.error));
+            let open = counted(|a, b| curves.iter().all(|c| !c.hides || at(&c.upper, a, b) >= -c.error));
+            assert!(got.lit <= lit + 2e-3 && got.open >= open - 2e-3, "{curves:?}: {got:?}, {lit} {open}");
+            assert!(got.lit >= lit - 8e-3 && got.open <= open + 8e-3, "{curves:?}: {got:?}, {lit} {open}");
+        }
+    }
+
+    /// A circle of which the area is known: pi/4 of the square.
+    #[test]
+    fn a_circle_converges_to_its_area() {
+        let circle = Paraboloid { c: -1.0, l: [0.0; 2], q: [1.0, 1.0, 0.0] };
+        // One quarter, as a cell of its own: a = (1 + x)/2, b = (1 + y)/2.
+        let quarter = Paraboloid { c: -0.5, l: [0.5, 0.5], q: [0.25, 0.25, 0.0] };
+        let whole = Curve { lower: circle, upper: circle, error: 0.0, hides: true };
+        let part = Curve { lower: quarter, upper: quarter, ..whole };
+        let truth = 1.0 - std::f64::consts::FRAC_PI_4;
+        for curve in [whole, part] {
+            let got = areas(&[curve], 1e-6, &mut Scratch::default());
+            assert!(got.lit <= truth && truth <= got.open, "{got:?}");
+        }
+        let unknown = Curve { error: f64::INFINITY, ..whole };
+        assert_eq!(areas(&[unknown], 1e-6, &mut Scratch::default()), Areas { lit: 0.0, open: 1.0, band: None });
+        let nan = Curve { lower: Paraboloid { c: f64::NAN, ..circle }, ..whole };
+        assert_eq!(areas(&[nan], 1e-6, &mut Scratch::default()), Areas { lit: 0.0, open: 1.0, band: None });
     }
 }

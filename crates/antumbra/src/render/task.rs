@@ -37,7 +37,7 @@ impl Task {
             bisection: spec.bisection,
             seed: spec.seed,
         };
-        let tolerance = Tolerance { width: spec.tolerance, rectangles: spec.rectangles };
+        let tolerance = Tolerance { width: spec.tolerance, rectangles: spec.rectangles, penumbra: spec.penumbra };
         let light = scene.light.scaled(spec.light_scale);
         Self { scene, objects, has_floor, film, light, settings, tolerance, method: spec.method }
     }

@@ -77,7 +77,7 @@ impl Kind for Dual<1> {
 /// `P + t D` with t in [0, 1], P a point of the box and D enclosing all of the box around it.
 fn path<P, const N: usize, const K: usize>(x: [Interval; K], apex: impl Fn(Interval) -> P) -> [Slope<P, N>; K]
 where
-    P: antumbra_interval::affine::Apex<N>,
+    P: antumbra_interval::affine::Apex<Affine<N>>,
 {
     let t = Affine::spanning(0, Interval::new(0.0, 1.0));
     std::array::from_fn(|k| {

@@ -66,7 +66,7 @@ fn planes_hold_at_every_symbol_value() {
 }
 
 /// `f(P + t D) = f(P) + t g` where all three are exact floats: t in [0, 1] from symbol 0.
-fn slopes<P: Apex<N> + std::fmt::Debug, const N: usize>(seed: u64) {
+fn slopes<P: Apex<Affine<N>> + std::fmt::Debug, const N: usize>(seed: u64) {
     let mut r = Rng::with_seed(seed);
     for operator in Operator::all() {
         let mut known = 0;

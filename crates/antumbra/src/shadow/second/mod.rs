@@ -1,0 +1,255 @@
+//! Penumbrae to second order: the visible fraction of a light from one hit, by quadratic models.
+//!
+//! Where the first-order method ([`super::visible`]) covers an open part of the beam with many short pieces and bounds each
+//! by a plane, this one follows the *least value along each ray*: near an occluder's silhouette it is a smooth function of
+//! the point of the light. Its parts, each proved in `docs/mathematics.md`:
+//!
+//! * **Slabs** between two sheets `t = k + u_slope u + v_slope v`, sheared so that the least value stays in the middle
+//!   ([`slab`]). Over a parallel slab a quadratic form of a polynomial of degree 2 is exact.
+//! * **Core convexity**: once convex in t, a long core needs but one thin slab ([`cell`]).
+//! * **Elimination** of t: bounds of the least value as quadratic polynomials over the light
+//!   ([`antumbra_interval::quadratic`]).
+//! * **Strips**: certified areas beside quadratic curves, and the band that stays unknown ([`crate::geom::strips`]).
+//! * **Cropped subdivision**: a cell is divided along the silhouette, and only the band goes on.
+mod cell;
+mod policy;
+mod slab;
+
+use super::rectangle::Query;
+use super::visible::{Penumbra, Tolerance};
+use crate::eval::Workspace;
+use crate::geom::strips::Band;
+use crate::geom::{Fan, Sheet};
+use crate::trace::{Cost, Piece, certainly_continuous};
+use antumbra_interval::Interval;
+use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
+use cell::{Answer, look};
+use slab::{Cell, Slab, State};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Scratch memory of one thread.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    cell: cell::Scratch,
+    slabs: Vec<Slab>,
+    heap: BinaryHeap<Node>,
+    parts: Vec<Part>,
+}
+
+type Part = ([Interval; 2], (usize, usize));
+
+/// A cell that is partly unknown.
+#[derive(Clone, Debug, PartialEq)]
+struct Node {
+    unknown: f64,
+    part: [Interval; 2],
+    slabs: (usize, usize),
+    /// Bounds of its visible share of the whole light.
+    lit: f64,
+    open: f64,
+    band: Option<Band>,
+}
+
+impl Eq for Node {}
+
+impl PartialOrd for Node {
+    fn partial_cmp(&self, o: &Self) -> Option<Ordering> {
+        Some(self.cmp(o))
+    }
+}
+
+impl Ord for Node {
+    /// By the unknown area; equal ones by place, so that the order is always the same.
+    fn cmp(&self, o: &Self) -> Ordering {
+        self.unknown
+            .total_cmp(&o.unknown)
+            .then_with(|| o.part[0].lo().total_cmp(&self.part[0].lo()))
+            .then_with(|| o.part[1].lo().total_cmp(&self.part[1].lo()))
+    }
+}
+
+/// Bounds of a visible fraction, and the cells that it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fraction {
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+    pub(super) cells: u32,
+}
+
+/// Whether the method applies to these pieces: every surface has a front sign, and is proved continuous all along the
+/// beam, so that an opposite sign is a proof.
+pub(super) fn applies(query: &Query<'_>, whole: &Fan, pieces: &[Piece], work: &mut Workspace) -> bool {
+    query.surfaces.iter().enumerate().all(|(surface, at)| {
+        let mut of = pieces.iter().filter(|p| p.surface == surface).map(|p| p.t);
+        let Some(first) = of.next() else { return true };
+        let reach = of.fold(first, Interval::hull).hull(Interval::ZERO);
+        query.fronts[surface].is_some()
+            && (at.function.continuous_everywhere() || certainly_continuous(at.function, &whole.box_at(reach), work))
+    })
+}
+
+/// The tolerance of the first attempt: with `Auto`, cells are limited.
+pub(super) fn limited(tolerance: Tolerance) -> Tolerance {
+    let most = if tolerance.penumbra == Penumbra::Auto { policy::FAIR } else { u32::MAX };
+    Tolerance { rectangles: tolerance.rectangles.min(most), ..tolerance }
+}
+
+/// The visible fraction, given the open pieces of the beam to the whole light.
+pub(super) fn fraction(
+    query: &Query<'_>,
+    pieces: &[Piece],
+    tolerance: Tolerance,
+    s: &mut Scratch,
+    work: &mut Workspace,
+    cost: &mut Cost,
+) -> Fraction {
+    let Scratch { cell: scratch, slabs, heap, parts } = s;
+    scratch.forget();
+    heap.clear();
+    slabs.clear();
+    slabs.extend(whole_slabs(pieces));
+    let unit = Interval::new(-1.0, 1.0);
+    parts.clear();
+    parts.push(([unit; 2], (0, slabs.len())));
+    let mut sums = Sums::default();
+    let (mut unknown, mut cells) = (0.0, 0);
+    loop {
+        while let Some((part, (from, to))) = parts.pop() {
+            cells += 1;
+            let begin = slabs.len();
+            let area = area(part);
+            let cell = Cell::new(query, part);
+            let enough = policy::enough(tolerance.width, area[1]);
+            match look(&cell, from..to, enough, slabs, scratch, work, cost) {
+                Answer::Dark => {}
+                Answer::Lit => sums.book(area),
+                Answer::Open(found) => {
+                    let (lit, open) = (mul_down(area[0], found.lit), mul_up(area[1], found.open));
+                    let unknown_here = sub_up(open, lit);
+                    unknown = add_up(unknown, unknown_here);
+                    let slabs = (begin, slabs.len());
+                    heap.push(Node { unknown: unknown_here, part, slabs, lit, open, band: found.band });
+                }
+            }
+        }
+        if unknown <= tolerance.width || cells >= tolerance.rectangles {
+            break;
+        }
+        let Some(node) = heap.pop() else { break };
+        // Rounded up, so the sum may creep upwards, by far less than a tolerance.
+        unknown = if heap.is_empty() { 0.0 } else { sub_up(unknown, node.unknown) };
+        let band = node.band.filter(policy::crop_pays);
+        if let Some(band) = band {
+            crop(&node, &band, &mut sums, parts);
+        } else {
+            let shape = policy::Shape::of(query.light, query.receiver.point.mid(), node.part);
+            divide(&node, shape.halved(), parts);
+        }
+    }
+    let lo = heap.iter().fold(sums.lo, |sum, node| add_down(sum, node.lit)).clamp(0.0, 1.0);
+    let hi = heap.iter().fold(sums.hi, |sum, node| add_up(sum, node.open)).clamp(0.0, 1.0);
+    Fraction { lo, hi, cells }
+}
+
+/// Bounds of what is certainly lit among the settled parts.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    lo: f64,
+    hi: f64,
+}
+
+impl Sums {
+    /// A settled part whose lit area is in the interval.
+    fn book(&mut self, [lo, hi]: [f64; 2]) {
+        (self.lo, self.hi) = (add_down(self.lo, lo), add_up(self.hi, hi));
+    }
+}
+
+/// Bounds of the share of the light that a part covers: a quarter of its area, exactly.
+fn area([u, v]: [Interval; 2]) -> [f64; 2] {
+    let (du, dv) = (sub_down(u.hi(), u.lo()), sub_down(v.hi(), v.lo()));
+    let (eu, ev) = (sub_up(u.hi(), u.lo()), sub_up(v.hi(), v.lo()));
+    [mul_down(0.25, mul_down(du, dv)), mul_up(0.25, mul_up(eu, ev))]
+}
+
+/// Pieces of one surface that touch as slabs on all rays.
+fn whole_slabs(pieces: &[Piece]) -> Vec<Slab> {
+    let mut sorted = pieces.to_vec();
+    sorted.sort_by(|a, b| a.surface.cmp(&b.surface).then(a.t.lo().total_cmp(&b.t.lo())));
+    let mut joined: Vec<Piece> = Vec::with_capacity(sorted.len());
+    for piece in sorted {
+        match joined.last_mut() {
+            Some(last) if last.surface == piece.surface && piece.t.lo() <= last.t.hi() => last.t = last.t.hull(piece.t),
+            _ => joined.push(piece),
+        }
+    }
+    let slab = |p: Piece| Slab {
+        surface: p.surface,
+        lo: Sheet::level(p.t.lo()),
+        hi: Sheet::level(p.t.hi()),
+        state: State::Open,
+    };
+    joined.into_iter().map(slab).collect()
+}
+
+/// Halves of an interval; they share their edge.
+fn halves(t: Interval) -> [Interval; 2] {
+    let mid = t.mid();
+    [Interval::new(t.lo(), mid), Interval::new(mid, t.hi())]
+}
+
+/// Two or four equal parts.
+fn divide(node: &Node, halved: [bool; 2], parts: &mut Vec<Part>) {
+    let [u, v] = node.part;
+    let cuts = |t: Interval, cut: bool| if cut { halves(t).to_vec() } else { vec![t] };
+    for v in cuts(v, halved[1]) {
+        parts.extend(cuts(u, halved[0]).into_iter().map(|u| ([u, v], node.slabs)));
+    }
+}
+
+/// Two halves along the band. Across it, only the undecided part goes on; what lies beyond on one side is lit and booked,
+/// on the other hidden.
+///
+/// The place `x` of `[-1, 1]` is `(lo + hi)/2 + (hi - lo)/2 x` of the range across: enclosed, cut to it. A part from the lower end
+/// of one enclosure to the upper end of the other holds all undecided places; both rests are settled all over.
+fn crop(node: &Node, band: &Band, sums: &mut Sums, parts: &mut Vec<Part>) {
+    let (across, along) = (node.part[band.across], halves(node.part[1 - band.across]));
+    let point = Interval::point;
+    let half = point(0.5);
+    let place = |x: f64| {
+        let (lo, hi) = (point(across.lo()), point(across.hi()));
+        ((lo + hi) * half + (hi - lo) * half * point(x)).intersection(across)
+    };
+    let oriented = |across: Interval, along: Interval| if band.across == 0 { [across, along] } else { [along, across] };
+    for ([from, to], along) in band.undecided.into_iter().zip(along) {
+        let (first, last) = (place(from.clamp(-1.0, 1.0)), place(to.clamp(-1.0, 1.0)));
+        // Beyond [-1, 1] nothing is left on that side.
+        let begin = if from <= -1.0 || first.is_empty() { across.lo() } else { first.lo() };
+        let end = if to >= 1.0 || last.is_empty() { across.hi() } else { last.hi() };
+        let beyond = |edge: f64| {
+            let lit = if band.lit_above { Interval::new(edge, across.hi()) } else { Interval::new(across.lo(), edge) };
+            area(oriented(lit, along))
+        };
+        if from < to && begin < end {
+            sums.book(beyond(if band.lit_above { end } else { begin }));
+            parts.push((oriented(Interval::new(begin, end), along), node.slabs));
+            continue;
+        }
+        // Nothing is undecided. Certainly lit beyond one edge, certainly not before the other.
+        let (lit, hidden) = if band.lit_above { (last, first) } else { (first, last) };
+        let edge = |x: Interval, up: bool, whole: f64| {
+            if x.is_empty() {
+                whole
+            } else if up {
+                x.hi()
+            } else {
+                x.lo()
+            }
+        };
+        let least = if band.lit_above { edge(lit, true, across.hi()) } else { edge(lit, false, across.lo()) };
+        let most = if band.lit_above { edge(hidden, false, across.lo()) } else { edge(hidden, true, across.hi()) };
+        let ([lo, _], [_, hi]) = (beyond(least), beyond(most));
+        sums.book([lo, hi]);
+    }
+}
