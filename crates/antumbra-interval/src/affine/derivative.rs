@@ -48,6 +48,16 @@ impl Smooth {
         }
     }
 
+    /// Whether all of `x` is inside the domain, so that `h` is smooth there (the tangent: its derivatives are unbounded
+    /// across a pole).
+    pub(crate) fn defined_on(self, x: Interval) -> bool {
+        match self {
+            Self::Ln | Self::Power(_) => x.certainly_positive(),
+            Self::Asin => x.lo() > -1.0 && x.hi() < 1.0,
+            _ => true,
+        }
+    }
+
     /// Range of `h` over the part of the domain in `x`.
     pub(crate) fn range(self, x: Interval) -> Interval {
         match self {

@@ -118,6 +118,9 @@ impl<F: Form> Jet<F> {
 
     /// `h(f)`: `h' f'` and `h' f''/2 + (h''/2) f'^2`.
     fn smooth(self, h: Smooth, value: F) -> Self {
+        if !h.defined_on(self.value.range()) {
+            return Self::kink(value);
+        }
         let slope = h.first(self.value);
         let bend = h.second_range(self.value.range()) * exact(0.5);
         let second = slope * self.second + self.first.sqr().mul_interval(known(bend));
@@ -272,6 +275,9 @@ impl<F: Form> Form for Jet<F> {
     /// `m' v'` and `m' v''/2 + (m''/2) v'^2` by the chain rule; the derivatives of `v` are those of `difference`.
     fn mean_derivative(h: Smooth, both: Interval, middle: Self, difference: Self) -> Self {
         let value = F::mean_derivative(h, both, middle.value, difference.value);
+        if !h.defined_on(both) {
+            return Self::kink(value);
+        }
         let first = known(h.second_range(both)) * exact(0.5);
         let half_second = known(h.third_range(both)) / exact(6.0);
         Self {

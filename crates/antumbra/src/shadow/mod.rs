@@ -24,4 +24,5 @@ mod visible;
 
 pub use occluders::Receiver;
 pub use shaft::{Shaft, ShaftVerdict, shaft};
+pub use second::{Claim, Says};
 pub use visible::{Bracket, Penumbra, Scratch, Tolerance, visible, whole_beam};

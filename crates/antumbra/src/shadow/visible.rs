@@ -76,6 +76,18 @@ pub struct Scratch {
     heap: BinaryHeap<Node>,
 }
 
+impl Scratch {
+    /// From now on, what the second-order method claims is written down.
+    pub fn record_claims(&mut self) {
+        self.second.claims = Some(Vec::new());
+    }
+
+    /// What it claimed since the last call, cell by cell. Every claim is a theorem; children repeat their parents.
+    pub fn take_claims(&mut self) -> Vec<second::Claim> {
+        self.second.claims.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+}
+
 /// A rectangle that is partly unknown.
 #[derive(Clone, Debug, PartialEq)]
 struct Node {
@@ -158,8 +170,8 @@ pub fn visible(
         }
         if rectangles == 1 && tolerance.penumbra != Penumbra::First {
             let pieces = &arena[pieces.len()..];
-            if second::applies(&query, &whole, pieces, work) {
-                let found = second::fraction(&query, pieces, second::limited(tolerance), second, work, cost);
+            if let Some(reach) = second::reach(&query, &whole, pieces, work) {
+                let found = second::fraction(&query, &reach, pieces, second::limited(tolerance), second, work, cost);
                 other = [found.lo, found.hi];
                 rectangles += found.cells;
                 if tolerance.penumbra == Penumbra::Second || sub_up(found.hi, found.lo) <= tolerance.width {

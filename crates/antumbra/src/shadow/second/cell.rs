@@ -33,12 +33,19 @@ pub(super) struct Scratch {
     areas: strips::Scratch,
     /// Of long and of short slabs.
     trials: [Trial; 2],
+    /// Evaluations before this cell.
+    before: u64,
 }
 
 impl Scratch {
     /// Another hit: what was learnt of the last one is forgotten, so that results do not depend on the order of hits.
     pub(super) fn forget(&mut self) {
         self.trials = Default::default();
+    }
+
+    /// What the last open cell said.
+    pub(super) fn curves(&self) -> &[Curve] {
+        &self.curves
     }
 }
 
@@ -62,6 +69,7 @@ pub(super) fn look(
     cost: &mut Cost,
 ) -> Answer {
     cost.beams += 1;
+    s.before = cost.evaluations;
     s.constraints.clear();
     s.stack.clear();
     s.stack.extend(open[slabs].iter().rev());
@@ -116,7 +124,7 @@ fn plain(
     if hides && hidden(&least) {
         return Settled::DarkCell;
     }
-    if cell.shape.long(extent) {
+    if cell.shape.long(extent, cost.evaluations - s.before) {
         let middle = between(&slab.lo, &slab.hi);
         if middle.is_finite() {
             // All parameters of the slab are in one of both halves, whatever sheet divides them.

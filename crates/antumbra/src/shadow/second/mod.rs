@@ -14,13 +14,15 @@
 mod cell;
 mod policy;
 mod slab;
+#[cfg(test)]
+mod tests;
 
 use super::rectangle::Query;
 use super::visible::{Penumbra, Tolerance};
 use crate::eval::Workspace;
-use crate::geom::strips::Band;
+use crate::geom::strips::{Band, Curve};
 use crate::geom::{Fan, Sheet};
-use crate::trace::{Cost, Piece, certainly_continuous};
+use crate::trace::{Cost, Piece, Surface, certainly_continuous};
 use antumbra_interval::Interval;
 use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
 use cell::{Answer, look};
@@ -35,6 +37,29 @@ pub(super) struct Scratch {
     slabs: Vec<Slab>,
     heap: BinaryHeap<Node>,
     parts: Vec<Part>,
+    /// Everything that is claimed, if somebody wants to know.
+    pub(super) claims: Option<Vec<Claim>>,
+}
+
+/// What was proved of a part of the light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// Parameters u, v of the light.
+    pub part: [Interval; 2],
+    /// What is said of it.
+    pub says: Says,
+}
+
+/// A statement about all points of a part of a light.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Says {
+    /// All are visible.
+    Lit,
+    /// None is.
+    Dark,
+    /// With `(a, b)` in `[-1, 1]^2` running over the part: those are visible at which every curve's `lower > error`; those are
+    /// not at which some hiding curve's `upper < -error`.
+    Curves(Vec<Curve>),
 }
 
 type Part = ([Interval; 2], (usize, usize));
@@ -77,16 +102,20 @@ pub(super) struct Fraction {
     pub(super) cells: u32,
 }
 
-/// Whether the method applies to these pieces: every surface has a front sign, and is proved continuous all along the
-/// beam, so that an opposite sign is a proof.
-pub(super) fn applies(query: &Query<'_>, whole: &Fan, pieces: &[Piece], work: &mut Workspace) -> bool {
-    query.surfaces.iter().enumerate().all(|(surface, at)| {
+/// For each surface, the parameter up to which it is proved continuous on all rays, so that an opposite sign is a proof.
+/// `None` if the method does not apply to these pieces: then some surface has no front sign, or may break.
+pub(super) fn reach(query: &Query<'_>, whole: &Fan, pieces: &[Piece], work: &mut Workspace) -> Option<Vec<f64>> {
+    let mut reach_of = |(surface, at): (usize, &Surface<'_>)| {
         let mut of = pieces.iter().filter(|p| p.surface == surface).map(|p| p.t);
-        let Some(first) = of.next() else { return true };
-        let reach = of.fold(first, Interval::hull).hull(Interval::ZERO);
-        query.fronts[surface].is_some()
-            && (at.function.continuous_everywhere() || certainly_continuous(at.function, &whole.box_at(reach), work))
-    })
+        let Some(first) = of.next() else { return Some(0.0) };
+        query.fronts[surface]?;
+        if at.function.continuous_everywhere() {
+            return Some(1.0);
+        }
+        let t = of.fold(first, Interval::hull).hull(Interval::ZERO);
+        certainly_continuous(at.function, &whole.box_at(t), work).then_some(t.hi())
+    };
+    query.surfaces.iter().enumerate().map(&mut reach_of).collect()
 }
 
 /// The tolerance of the first attempt: with `Auto`, cells are limited.
@@ -98,13 +127,14 @@ pub(super) fn limited(tolerance: Tolerance) -> Tolerance {
 /// The visible fraction, given the open pieces of the beam to the whole light.
 pub(super) fn fraction(
     query: &Query<'_>,
+    reach: &[f64],
     pieces: &[Piece],
     tolerance: Tolerance,
     s: &mut Scratch,
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Fraction {
-    let Scratch { cell: scratch, slabs, heap, parts } = s;
+    let Scratch { cell: scratch, slabs, heap, parts, claims } = s;
     scratch.forget();
     heap.clear();
     slabs.clear();
@@ -119,9 +149,18 @@ pub(super) fn fraction(
             cells += 1;
             let begin = slabs.len();
             let area = area(part);
-            let cell = Cell::new(query, part);
+            let cell = Cell::new(query, reach, part);
             let enough = policy::enough(tolerance.width, area[1]);
-            match look(&cell, from..to, enough, slabs, scratch, work, cost) {
+            let answer = look(&cell, from..to, enough, slabs, scratch, work, cost);
+            if let Some(claims) = claims {
+                let says = match answer {
+                    Answer::Lit => Says::Lit,
+                    Answer::Dark => Says::Dark,
+                    Answer::Open(_) => Says::Curves(scratch.curves().to_vec()),
+                };
+                claims.push(Claim { part, says });
+            }
+            match answer {
                 Answer::Dark => {}
                 Answer::Lit => sums.book(area),
                 Answer::Open(found) => {

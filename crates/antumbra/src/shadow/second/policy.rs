@@ -18,6 +18,10 @@ const NEAR: f64 = 0.1;
 /// The slope form is used where `lo <= SLOPE hi`, or `hi < CLOSE`.
 const SLOPE: f64 = 0.3;
 const CLOSE: f64 = 0.15;
+/// No slab is cut below this length, ...
+const SHORTEST: f64 = 1e-9;
+/// ... nor after so many evaluations in one cell.
+const MOST: u64 = 400;
 /// A band is cropped if its width is at most this part of the cell's 2.
 const CROP: f64 = 1.3;
 /// Newton steps on the middle ray.
@@ -79,12 +83,12 @@ impl Shape {
     }
 
     pub(super) fn short(&self, x: Extent) -> bool {
-        0.5 * (x.hi - x.lo) <= SHORT * self.lateral(x.middle())
+        0.5 * (x.hi - x.lo) <= (SHORT * self.lateral(x.middle())).max(SHORTEST)
     }
 
-    /// Whether a slab beside the main one is to be cut in two.
-    pub(super) fn long(&self, x: Extent) -> bool {
-        !self.short(x) && 0.5 * (x.hi - x.lo) > 1.01 * MAIN * self.lateral(x.middle())
+    /// Whether a slab beside the main one is to be cut in two, after so many evaluations in this cell.
+    pub(super) fn long(&self, x: Extent, evaluations: u64) -> bool {
+        !self.short(x) && evaluations < MOST
     }
 
     /// The point at t on the ray to `(u, v)`, moving with t.
@@ -135,7 +139,7 @@ impl Shape {
                 };
                 let slope = -(slope_at(0.5) - slope_at(-0.5)) / (2.0 * g.second * self.half[k]);
                 let most = 2.0 * width / self.half[k];
-                slopes[k] = if slope.is_finite() { slope.clamp(-most, most) } else { 0.0 };
+                slopes[k] = if slope.is_finite() { slope.max(-most).min(most) } else { 0.0 };
             }
             // The covers of the inherited sheets must stay between hit and light.
             let over = |sheet: &Sheet| {

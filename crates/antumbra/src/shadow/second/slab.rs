@@ -45,10 +45,12 @@ pub(super) struct Cell<'a> {
     fan: Fan,
     directions: Box3,
     passages: Vec<Passage>,
+    reach: &'a [f64],
 }
 
 impl<'a> Cell<'a> {
-    pub(super) fn new(query: &'a Query<'a>, part: [Interval; 2]) -> Self {
+    /// `reach`: for each surface, the parameter up to which it is proved continuous on all rays.
+    pub(super) fn new(query: &'a Query<'a>, reach: &'a [f64], part: [Interval; 2]) -> Self {
         let fan = Fan::towards(query.receiver.point, query.light, part[0], part[1]);
         let directions = fan.directions();
         let passages = query.surfaces.iter().map(|at| at.passage(&fan.apex, &directions)).collect();
@@ -60,6 +62,7 @@ impl<'a> Cell<'a> {
             fan,
             directions,
             passages,
+            reach,
         }
     }
 
@@ -79,13 +82,15 @@ impl<'a> Cell<'a> {
     }
 
     /// Whether a negative value at any parameter of the slab, on a ray, proves that the ray is hidden: it must lie between
-    /// the front and the light, and inside the region together with the front, on all rays. (That f is continuous in between
-    /// has been proved for the whole beam.)
+    /// the front and the light, inside the region together with the front, on all rays, and where f has been proved
+    /// continuous from the apex on.
     pub(super) fn inside(&self, slab: &Slab) -> bool {
         let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
         let passage = &self.passages[slab.surface];
         self.query.fronts[slab.surface].is_some_and(|front| {
-            front.at <= t.lo() && t.is_subset_of(passage.inner.intersection(Interval::new(0.0, 1.0)))
+            front.at <= t.lo()
+                && t.hi() <= self.reach[slab.surface]
+                && t.is_subset_of(passage.inner.intersection(Interval::new(0.0, 1.0)))
         })
     }
 
