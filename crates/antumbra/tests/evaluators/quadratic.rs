@@ -154,7 +154,7 @@ fn smooth_operators_converge_with_order_three() {
             let [a, b] = x.map(Quadratic::from);
             operator.apply(a, b).error()
         };
-        for k in 5..9 {
+        for k in 7..11 {
             let order = core_math::log2(error(k) / error(k + 1));
             assert!((2.5..3.5).contains(&order), "{}: order {order} at 2^-{k}", operator.name());
         }

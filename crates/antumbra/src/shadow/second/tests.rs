@@ -71,7 +71,7 @@ fn surfaces() -> [Surface<'static>; 2] {
 }
 
 fn light(half: f64) -> Rect {
-    Rect::horizontal(Vec3::new(0.03, 0.1, 1.0), 2.0 * half)
+    Rect::horizontal(Vec3::new(0.095, -0.3, 1.0), 2.0 * half)
 }
 
 fn receiver() -> Receiver {
