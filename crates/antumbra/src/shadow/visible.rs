@@ -140,14 +140,26 @@ pub fn visible(
     let fronts = fronts(surfaces, receiver, &whole, work, cost);
     let query = Query { surfaces, receiver, fronts: &fronts, light };
     let Scratch { rectangle, second, pieces: arena, heap } = s;
+    let mut tried = tolerance.penumbra == Penumbra::First;
+    let mut by_second = |pieces: &[Piece], s: &mut second::Scratch, work: &mut Workspace, cost: &mut Cost| {
+        let reach = if tried { None } else { second::reach(&query, &whole, pieces, work) }?;
+        tried = true;
+        Some(second::fraction(&query, &reach, pieces, tolerance, s, work, cost))
+    };
+    // A bracket of the second-order method.
+    let mut other = [0.0, 1.0];
+    if let Some(found) = by_second(pieces, second, work, cost) {
+        if found.settles(tolerance) {
+            return found.bracket(tolerance);
+        }
+        other = [found.lo, found.hi];
+    }
     arena.clear();
     arena.extend_from_slice(pieces);
     heap.clear();
     // Bounds of what is settled, and an upper bound of what is not.
     let (mut lit, mut lit_up, mut unknown) = (0.0, 0.0, 0.0);
     let mut rectangles = 0;
-    // A bracket of the second-order method.
-    let mut other = [0.0, 1.0];
     let mut parts = vec![([unit, unit], 0, arena.len())];
     loop {
         for (part, from, to) in parts.drain(..) {
@@ -168,13 +180,12 @@ pub fn visible(
         if unknown <= tolerance.width || rectangles >= tolerance.rectangles {
             break;
         }
-        if rectangles == 1 && tolerance.penumbra != Penumbra::First {
-            let pieces = &arena[pieces.len()..];
-            if let Some(reach) = second::reach(&query, &whole, pieces, work) {
-                let found = second::fraction(&query, &reach, pieces, second::limited(tolerance), second, work, cost);
+        if rectangles == 1 {
+            // What was too long a beam to be proved continuous may have become short.
+            if let Some(found) = by_second(&arena[pieces.len()..], second, work, cost) {
                 other = [found.lo, found.hi];
                 rectangles += found.cells;
-                if tolerance.penumbra == Penumbra::Second || sub_up(found.hi, found.lo) <= tolerance.width {
+                if found.settles(tolerance) {
                     break;
                 }
             }

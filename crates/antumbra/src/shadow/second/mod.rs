@@ -18,11 +18,12 @@ mod slab;
 mod tests;
 
 use super::rectangle::Query;
-use super::visible::{Penumbra, Tolerance};
+use super::visible::{Bracket, Penumbra, Tolerance};
 use crate::eval::Workspace;
 use crate::geom::strips::{Band, Curve};
 use crate::geom::{Fan, Sheet};
 use crate::trace::{Cost, Piece, Surface, certainly_continuous};
+use crate::verdict::Reason;
 use antumbra_interval::Interval;
 use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
 use cell::{Answer, look};
@@ -102,6 +103,18 @@ pub(super) struct Fraction {
     pub(super) cells: u32,
 }
 
+impl Fraction {
+    /// Whether nothing more is to be done.
+    pub(super) fn settles(&self, tolerance: Tolerance) -> bool {
+        tolerance.penumbra == Penumbra::Second || sub_up(self.hi, self.lo) <= tolerance.width
+    }
+
+    pub(super) fn bracket(&self, tolerance: Tolerance) -> Bracket {
+        let reason = (sub_up(self.hi, self.lo) > tolerance.width).then_some(Reason::Budget);
+        Bracket { lo: self.lo, hi: self.hi, reason, first_free: self.cells == 1 && self.lo == 1.0 }
+    }
+}
+
 /// For each surface, the parameter up to which it is proved continuous on all rays, so that an opposite sign is a proof.
 /// `None` if the method does not apply to these pieces: then some surface has no front sign, or may break.
 pub(super) fn reach(query: &Query<'_>, whole: &Fan, pieces: &[Piece], work: &mut Workspace) -> Option<Vec<f64>> {
@@ -118,12 +131,6 @@ pub(super) fn reach(query: &Query<'_>, whole: &Fan, pieces: &[Piece], work: &mut
     query.surfaces.iter().enumerate().map(&mut reach_of).collect()
 }
 
-/// The tolerance of the first attempt: with `Auto`, cells are limited.
-pub(super) fn limited(tolerance: Tolerance) -> Tolerance {
-    let most = if tolerance.penumbra == Penumbra::Auto { policy::FAIR } else { u32::MAX };
-    Tolerance { rectangles: tolerance.rectangles.min(most), ..tolerance }
-}
-
 /// The visible fraction, given the open pieces of the beam to the whole light.
 pub(super) fn fraction(
     query: &Query<'_>,
@@ -135,6 +142,8 @@ pub(super) fn fraction(
     cost: &mut Cost,
 ) -> Fraction {
     let Scratch { cell: scratch, slabs, heap, parts, claims } = s;
+    let most = if tolerance.penumbra == Penumbra::Auto { policy::FAIR } else { u32::MAX };
+    let most = tolerance.rectangles.min(most);
     scratch.forget();
     heap.clear();
     slabs.clear();
@@ -143,7 +152,7 @@ pub(super) fn fraction(
     parts.clear();
     parts.push(([unit; 2], (0, slabs.len())));
     let mut sums = Sums::default();
-    let (mut unknown, mut cells) = (0.0, 0);
+    let (mut unknown, mut cells, mut all_lit) = (0.0, 0, true);
     loop {
         while let Some((part, (from, to))) = parts.pop() {
             cells += 1;
@@ -161,7 +170,7 @@ pub(super) fn fraction(
                 claims.push(Claim { part, says });
             }
             match answer {
-                Answer::Dark => {}
+                Answer::Dark => all_lit = false,
                 Answer::Lit => sums.book(area),
                 Answer::Open(found) => {
                     let (lit, open) = (mul_down(area[0], found.lit), mul_up(area[1], found.open));
@@ -172,23 +181,38 @@ pub(super) fn fraction(
                 }
             }
         }
-        if unknown <= tolerance.width || cells >= tolerance.rectangles {
+        if cells >= most {
             break;
+        }
+        if unknown <= tolerance.width {
+            // Narrow enough; but lit or dark all over is worth a little more.
+            let [lo, hi] = bounds(&sums, heap);
+            if heap.is_empty() || !policy::perhaps_all_the_same(lo, hi, cells) {
+                break;
+            }
         }
         let Some(node) = heap.pop() else { break };
         // Rounded up, so the sum may creep upwards, by far less than a tolerance.
         unknown = if heap.is_empty() { 0.0 } else { sub_up(unknown, node.unknown) };
         let band = node.band.filter(policy::crop_pays);
         if let Some(band) = band {
+            all_lit = false;
             crop(&node, &band, &mut sums, parts);
         } else {
             let shape = policy::Shape::of(query.light, query.receiver.point.mid(), node.part);
             divide(&node, shape.halved(), parts);
         }
     }
-    let lo = heap.iter().fold(sums.lo, |sum, node| add_down(sum, node.lit)).clamp(0.0, 1.0);
-    let hi = heap.iter().fold(sums.hi, |sum, node| add_up(sum, node.open)).clamp(0.0, 1.0);
+    // Where every part is lit, so is the whole: rounded sums would not say so.
+    let [lo, hi] = if heap.is_empty() && all_lit { [1.0; 2] } else { bounds(&sums, heap) };
     Fraction { lo, hi, cells }
+}
+
+/// Bounds of the lit area of settled parts and open cells.
+fn bounds(sums: &Sums, heap: &BinaryHeap<Node>) -> [f64; 2] {
+    let lo = heap.iter().fold(sums.lo, |sum, node| add_down(sum, node.lit));
+    let hi = heap.iter().fold(sums.hi, |sum, node| add_up(sum, node.open));
+    [lo.clamp(0.0, 1.0), hi.clamp(0.0, 1.0)]
 }
 
 /// Bounds of what is certainly lit among the settled parts.

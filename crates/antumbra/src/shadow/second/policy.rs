@@ -26,6 +26,8 @@ const MOST: u64 = 400;
 const CROP: f64 = 1.3;
 /// Newton steps on the middle ray.
 const STEPS: usize = 7;
+/// Cells that certainty may take where the bracket is narrow already.
+const CERTAIN: u32 = 9;
 /// Cells after which half planes get their chance.
 pub(super) const FAIR: u32 = 400;
 /// Thickenings of the main slab before convexity is given up.
@@ -232,6 +234,12 @@ pub(super) fn seen_from_front(f: PointJet, kind: Kind, t: f64, negative: bool) -
             PointJet { value, first, second: (f.second - first) / t }
         }
     }
+}
+
+/// Whether a narrow bracket may be that of a light that is visible as a whole, or not at all, which a few more cells might
+/// prove.
+pub(super) fn perhaps_all_the_same(lo: f64, hi: f64, cells: u32) -> bool {
+    cells < CERTAIN && (hi > 1.0 - 1e-9 || lo < 1e-9)
 }
 
 /// The factor that makes two kinds of function comparable at about t: any positive one is sound.
