@@ -17,8 +17,7 @@ fn form(r: &mut Random, nasty: bool) -> Quadratic {
 /// The polynomial at symbol values, exactly.
 fn polynomial(x: &Quadratic, p: &[f64; 3]) -> Dyadic {
     let [s, a, b] = [exact(p[0]), exact(p[1]), exact(p[2])];
-    let terms =
-        [s.clone(), a.clone(), b.clone(), &s * &s, &a * &a, &b * &b, &s * &a, &s * &b, &a * &b];
+    let terms = [s.clone(), a.clone(), b.clone(), &s * &s, &a * &a, &b * &b, &s * &a, &s * &b, &a * &b];
     let coefficients = x.linear().iter().chain(x.quadratic());
     coefficients.zip(&terms).fold(exact(x.centre()), |sum, (k, t)| sum + &exact(*k) * t)
 }
@@ -58,7 +57,9 @@ fn ring_operations_contain_the_exact_value() {
             assert!(allows(&z, &p, &truth), "{name} of {x:?}, {y:?}, {k} at {p:?}: {z:?}");
             known += u32::from(z.is_known());
             let range = z.range();
-            let inside = |lo: f64, hi: f64| (lo == f64::NEG_INFINITY || exact(lo) <= truth) && (hi == f64::INFINITY || truth <= exact(hi));
+            let inside = |lo: f64, hi: f64| {
+                (lo == f64::NEG_INFINITY || exact(lo) <= truth) && (hi == f64::INFINITY || truth <= exact(hi))
+            };
             assert!(inside(range.lo(), range.hi()), "{name}: range {range:?} of {z:?}");
         }
     }
@@ -115,7 +116,9 @@ fn elimination_is_exact_up_to_its_error() {
             .unwrap();
         let slack = exact(1e-15 * (h.abs() + n.abs()) + f64::MIN_POSITIVE);
         assert!(best <= &(upper + error) + &slack, "{x:?} at {p:?}: {least:?}");
-        assert!(exact(least.lower.lower_bound()) <= lower && exact(least.upper.upper_bound()) >= paraboloid(&least.upper));
+        assert!(
+            exact(least.lower.lower_bound()) <= lower && exact(least.upper.upper_bound()) >= paraboloid(&least.upper)
+        );
     }
     assert!(used > 10_000, "{used}");
 }
@@ -133,5 +136,7 @@ fn what_is_too_large_is_unknown() {
     assert_eq!(Quadratic::UNKNOWN.range(), Interval::ENTIRE);
     assert_eq!(Quadratic::constant(Interval::point(3.0)).range(), Interval::point(3.0));
     assert!(!Quadratic::from(Affine::UNKNOWN).is_known() && !Quadratic::UNKNOWN.to_affine().is_known());
-    assert!(!Quadratic::from(Affine::symbol(0)).recip().is_known() && !Quadratic::from(Affine::symbol(0)).ln().is_known());
+    assert!(
+        !Quadratic::from(Affine::symbol(0)).recip().is_known() && !Quadratic::from(Affine::symbol(0)).ln().is_known()
+    );
 }

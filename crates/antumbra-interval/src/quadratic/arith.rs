@@ -196,8 +196,8 @@ impl Mul for Quadratic {
             l[i] += 0.5 * k;
             cut += 0.5 * k.abs();
         }
-        cut += ((xl[0] * yq[5] + yl[0] * xq[5]) + (xl[1] * yq[4] + yl[1] * xq[4]) + (xl[2] * yq[3] + yl[2] * xq[3]))
-            .abs();
+        cut +=
+            ((xl[0] * yq[5] + yl[0] * xq[5]) + (xl[1] * yq[4] + yl[1] * xq[4]) + (xl[2] * yq[3] + yl[2] * xq[3])).abs();
         let (nxq, nyq) = (norm(xq), norm(yq));
         let mx = x.c.abs() + norm(xl) + nxq;
         let my = y.c.abs() + norm(yl) + nyq;

@@ -127,11 +127,7 @@ impl IntegerPower for f64 {
 }
 
 /// Value and slope from the middle of enclosures at a point, the second derivative from slopes on both sides.
-pub(super) fn by_differences(
-    f: &(impl Inclusion + ?Sized),
-    point: [PointJet; 3],
-    work: &mut Workspace,
-) -> PointJet {
+pub(super) fn by_differences(f: &(impl Inclusion + ?Sized), point: [PointJet; 3], work: &mut Workspace) -> PointJet {
     let size = point.iter().map(|x| x.first.abs()).fold(0.0, f64::max);
     let step = 1e-4 / (size + 1e-9);
     let mut slope = |t: f64| {

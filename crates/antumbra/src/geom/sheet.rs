@@ -83,6 +83,8 @@ mod tests {
             assert!(gap.abs() < 1e-14, "{gap}: no more than needed");
         }
         assert_eq!(sheet.below(sheet.slopes, part), sheet, "the same sheet is its own cover");
-        assert!(!Sheet::level(0.5).certainly_at_most(&sheet, part) && !sheet.certainly_at_most(&Sheet::level(0.5), part));
+        assert!(
+            !Sheet::level(0.5).certainly_at_most(&sheet, part) && !sheet.certainly_at_most(&Sheet::level(0.5), part)
+        );
     }
 }

@@ -23,6 +23,6 @@ mod shaft;
 mod visible;
 
 pub use occluders::Receiver;
-pub use shaft::{Shaft, ShaftVerdict, shaft};
 pub use second::{Claim, Says};
+pub use shaft::{Shaft, ShaftVerdict, shaft};
 pub use visible::{Bracket, Penumbra, Scratch, Tolerance, visible, whole_beam};

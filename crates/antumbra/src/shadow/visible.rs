@@ -46,8 +46,7 @@ pub enum Penumbra {
 
 impl Penumbra {
     /// Every choice with its name.
-    pub const ALL: [(Self, &'static str); 3] =
-        [(Self::First, "first"), (Self::Second, "second"), (Self::Auto, "auto")];
+    pub const ALL: [(Self, &'static str); 3] = [(Self::First, "first"), (Self::Second, "second"), (Self::Auto, "auto")];
 
     /// The choice of that name.
     #[must_use]
@@ -140,7 +139,7 @@ pub fn visible(
     let fronts = fronts(surfaces, receiver, &whole, work, cost);
     let query = Query { surfaces, receiver, fronts: &fronts, light };
     let Scratch { rectangle, second, pieces: arena, heap } = s;
-    let mut tried = tolerance.penumbra == Penumbra::First;
+    let mut tried = !second::worth(tolerance, second);
     let mut by_second = |pieces: &[Piece], s: &mut second::Scratch, work: &mut Workspace, cost: &mut Cost| {
         let reach = if tried { None } else { second::reach(&query, &whole, pieces, work) }?;
         tried = true;

@@ -124,8 +124,7 @@ fn forms_converge_with_order_three() {
         let (_, tape) = compile(text);
         let error = |p: [f64; 3], k: i32| {
             let h = power_of_two(-k - 1);
-            let x: [Affine<3>; 3] =
-                std::array::from_fn(|i| Affine::spanning(i, Interval::new(p[i] - h, p[i] + h)));
+            let x: [Affine<3>; 3] = std::array::from_fn(|i| Affine::spanning(i, Interval::new(p[i] - h, p[i] + h)));
             run(&tape, x.map(Quadratic::from), &mut vec![]).error()
         };
         for p in [[0.3, 0.4, 0.6], [0.7, 0.2, 0.9]] {
@@ -149,8 +148,8 @@ fn smooth_operators_converge_with_order_three() {
             continue;
         }
         let error = |k: i32| {
-            let x: [Affine<3>; 2] = [(0, 0.4), (1, 0.55)]
-                .map(|(i, a)| Affine::spanning(i, Interval::new(a, a + power_of_two(-k))));
+            let x: [Affine<3>; 2] =
+                [(0, 0.4), (1, 0.55)].map(|(i, a)| Affine::spanning(i, Interval::new(a, a + power_of_two(-k))));
             let [a, b] = x.map(Quadratic::from);
             operator.apply(a, b).error()
         };
@@ -197,10 +196,16 @@ fn jets_agree_with_symbolic_derivatives() {
             let mut work = Workspace::default();
             let got = tape.bend(line, &mut work);
             assert!(got.possibly_intersects(bend * half), "{text} at {p:?} along {d:?}, {t}: {got:?}, {bend:?}");
-            let about = tape.about(std::array::from_fn(|k| PointJet { value: there[k].mid(), first: d[k], second: 0.0 }), &mut work);
+            let about = tape.about(
+                std::array::from_fn(|k| PointJet { value: there[k].mid(), first: d[k], second: 0.0 }),
+                &mut work,
+            );
             if bend.is_bounded() && bend.magnitude() < 1e6 {
                 known[0] += usize::from(got.is_bounded());
-                assert!((about.second - 0.5 * bend.mid()).abs() < 1e-6 * (1.0 + bend.magnitude()), "{text}: {about:?}, {bend:?}");
+                assert!(
+                    (about.second - 0.5 * bend.mid()).abs() < 1e-6 * (1.0 + bend.magnitude()),
+                    "{text}: {about:?}, {bend:?}"
+                );
                 assert!((about.first - slope.mid()).abs() < 1e-8 * (1.0 + slope.magnitude()), "{text}: {about:?}");
             }
             let slopes = std::array::from_fn(|k| SlopeOf {

@@ -75,6 +75,7 @@ pub(super) fn look(
     s.stack.extend(open[slabs].iter().rev());
     let begin = open.len();
     while let Some(slab) = s.stack.pop() {
+        let Some(slab) = cell.clipped(&slab) else { continue };
         let settled = if slab.state != State::Outer && !cell.shape.short(cell.extent(&slab)) {
             narrow(cell, &slab, open, s, work, cost)
         } else {
@@ -163,8 +164,7 @@ fn narrow(
         State::Convex(kind) => kind,
         _ => cell.kind(slab),
     };
-    let mut plan =
-        cell.shape.plan(&slab.lo, &slab.hi, |at, t| cell.about(slab.surface, searched, at, t, work));
+    let mut plan = cell.shape.plan(&slab.lo, &slab.hi, |at, t| cell.about(slab.surface, searched, at, t, work));
     if !plan.sheet(1.0).is_finite() {
         return plain(cell, &Slab { state: State::Outer, ..*slab }, open, s, work, cost);
     }

@@ -14,8 +14,6 @@
 mod cell;
 mod policy;
 mod slab;
-#[cfg(test)]
-mod tests;
 
 use super::rectangle::Query;
 use super::visible::{Bracket, Penumbra, Tolerance};
@@ -38,6 +36,7 @@ pub(super) struct Scratch {
     slabs: Vec<Slab>,
     heap: BinaryHeap<Node>,
     parts: Vec<Part>,
+    trust: policy::Trust,
     /// Everything that is claimed, if somebody wants to know.
     pub(super) claims: Option<Vec<Claim>>,
 }
@@ -131,6 +130,15 @@ pub(super) fn reach(query: &Query<'_>, whole: &Fan, pieces: &[Piece], work: &mut
     query.surfaces.iter().enumerate().map(&mut reach_of).collect()
 }
 
+/// Whether the method is to be tried on the next hit: with `Auto`, not where it has failed of late.
+pub(super) fn worth(tolerance: Tolerance, s: &mut Scratch) -> bool {
+    match tolerance.penumbra {
+        Penumbra::First => false,
+        Penumbra::Second => true,
+        Penumbra::Auto => s.trust.worth(),
+    }
+}
+
 /// The visible fraction, given the open pieces of the beam to the whole light.
 pub(super) fn fraction(
     query: &Query<'_>,
@@ -141,9 +149,11 @@ pub(super) fn fraction(
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Fraction {
-    let Scratch { cell: scratch, slabs, heap, parts, claims } = s;
-    let most = if tolerance.penumbra == Penumbra::Auto { policy::FAIR } else { u32::MAX };
-    let most = tolerance.rectangles.min(most);
+    let Scratch { cell: scratch, slabs, heap, parts, claims, .. } = s;
+    let most = match tolerance.penumbra {
+        Penumbra::Auto => cost.evaluations + policy::fair(tolerance.width),
+        _ => u64::MAX,
+    };
     scratch.forget();
     heap.clear();
     slabs.clear();
@@ -181,7 +191,7 @@ pub(super) fn fraction(
                 }
             }
         }
-        if cells >= most {
+        if cells >= tolerance.rectangles || cost.evaluations >= most {
             break;
         }
         if unknown <= tolerance.width {
@@ -205,6 +215,7 @@ pub(super) fn fraction(
     }
     // Where every part is lit, so is the whole: rounded sums would not say so.
     let [lo, hi] = if heap.is_empty() && all_lit { [1.0; 2] } else { bounds(&sums, heap) };
+    s.trust.tell(sub_up(hi, lo) <= tolerance.width);
     Fraction { lo, hi, cells }
 }
 
@@ -316,3 +327,7 @@ fn crop(node: &Node, band: &Band, sums: &mut Sums, parts: &mut Vec<Part>) {
         sums.book([lo, hi]);
     }
 }
+
+#[cfg(test)]
+#[allow(clippy::float_arithmetic, reason = "truths to compare with")]
+mod tests;

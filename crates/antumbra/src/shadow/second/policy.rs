@@ -28,8 +28,8 @@ const CROP: f64 = 1.3;
 const STEPS: usize = 7;
 /// Cells that certainty may take where the bracket is narrow already.
 const CERTAIN: u32 = 9;
-/// Cells after which half planes get their chance.
-pub(super) const FAIR: u32 = 400;
+/// Evaluations for one hit after which planes get their chance, at a tolerance of 1/255.
+const FAIR: f64 = 800.0;
 /// Thickenings of the main slab before convexity is given up.
 pub(super) const TRIES: usize = 3;
 
@@ -109,7 +109,11 @@ impl Shape {
         let mut found = false;
         for _ in 0..STEPS {
             g = about(self.centre, t);
-            if g.first > 0.0 { b = t } else { a = t }
+            if g.first > 0.0 {
+                b = t
+            } else {
+                a = t
+            }
             let mut next = if g.second > 0.0 {
                 t - 0.5 * g.first / g.second
             } else if g.first > 0.0 {
@@ -145,9 +149,7 @@ impl Shape {
             }
             // The covers of the inherited sheets must stay between hit and light.
             let over = |sheet: &Sheet| {
-                (0..2)
-                    .map(|k| ((sheet.slopes[k] - slopes[k]).abs() + slopes[k].abs()) * self.half[k])
-                    .sum::<f64>()
+                (0..2).map(|k| ((sheet.slopes[k] - slopes[k]).abs() + slopes[k].abs()) * self.half[k]).sum::<f64>()
             };
             if first - over(lo) < 0.0 || last + over(hi) > 1.0 {
                 slopes = [0.0; 2];
@@ -233,6 +235,33 @@ pub(super) fn seen_from_front(f: PointJet, kind: Kind, t: f64, negative: bool) -
             let first = (f.first - value) / t;
             PointJet { value, first, second: (f.second - first) / t }
         }
+    }
+}
+
+/// Evaluations that are fair for one hit: the second-order method needs at most about `width^-0.3`.
+pub(super) fn fair(width: f64) -> u64 {
+    (FAIR * (1.0 / (255.0 * width)).max(1.0).sqrt()) as u64
+}
+
+/// Whether the method is worth trying: it has settled hits of late, or it is time to try again.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Trust {
+    failures: u32,
+    skipped: u32,
+}
+
+impl Trust {
+    pub(super) fn worth(&mut self) -> bool {
+        if self.failures < 3 || self.skipped >= 7 {
+            self.skipped = 0;
+            return true;
+        }
+        self.skipped += 1;
+        false
+    }
+
+    pub(super) fn tell(&mut self, settled: bool) {
+        self.failures = if settled { 0 } else { self.failures + 1 };
     }
 }
 

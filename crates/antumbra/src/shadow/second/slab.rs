@@ -70,6 +70,29 @@ impl<'a> Cell<'a> {
         self.shape.extent(&slab.lo, &slab.hi)
     }
 
+    /// What of a slab is inside the surface's region: beyond it nothing occludes. `None` if nothing is.
+    ///
+    /// A parameter of the slab that is not beyond the region on every ray lies in `outer`, so it may be cut off at the ends of
+    /// that. A convex slab stays as it is: it must not grow, not even where its sheets already lie inside.
+    pub(super) fn clipped(&self, slab: &Slab) -> Option<Slab> {
+        let outer = self.passages[slab.surface].outer;
+        let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
+        if !t.possibly_intersects(outer) {
+            return None;
+        }
+        let (lo, hi) = (Sheet::level(outer.lo()), Sheet::level(outer.hi()));
+        let mut inside = *slab;
+        if !matches!(slab.state, State::Convex(_)) {
+            if slab.lo.certainly_at_most(&lo, self.part) {
+                inside.lo = lo;
+            }
+            if outer.hi() < f64::INFINITY && hi.certainly_at_most(&slab.hi, self.part) {
+                inside.hi = hi;
+            }
+        }
+        Some(inside)
+    }
+
     /// The kind of function that suits a slab.
     pub(super) fn kind(&self, slab: &Slab) -> Kind {
         let own = slab.surface == self.query.receiver.surface;

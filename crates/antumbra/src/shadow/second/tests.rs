@@ -1,5 +1,4 @@
 //! The steps one by one, on functions of which everything is known.
-#![allow(clippy::float_arithmetic, reason = "truths to compare with")]
 use super::cell::{self, Answer, look};
 use super::slab::{Cell, Kind, Slab, State};
 use crate::eval::{Gradient, Inclusion, JetPoint, QuadraticPoint, Workspace};
@@ -13,7 +12,10 @@ use antumbra_interval::{Decorated, Interval};
 use std::ops::{Add, Mul, Sub};
 
 /// `50 (z - 3/10)^2 (z - 7/10)^2 + x + (y/3) z - 1/50`: two valleys along rays that go up, the deeper one by turns.
-fn valleys<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>([x, y, z]: [T; 3], k: impl Fn(f64) -> T) -> T {
+fn valleys<T: Copy + Add<Output = T> + Sub<Output = T> + Mul<Output = T>>(
+    [x, y, z]: [T; 3],
+    k: impl Fn(f64) -> T,
+) -> T {
     let (a, b) = (z - k(0.3), z - k(0.7));
     k(50.0) * (a * a) * (b * b) + x + k(1.0 / 3.0) * y * z - k(0.02)
 }
@@ -147,8 +149,7 @@ fn a_convex_range_must_not_grow() {
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut scratch, mut work, mut cost) = (cell::Scratch::default(), Workspace::default(), Cost::default());
     // g'' > 0 up to z = 0.3845 only: here it is proved, and the valley's floor is at 0.3.
-    let convex =
-        Slab { surface: 1, lo: Sheet::level(0.05), hi: Sheet::level(0.37), state: State::Convex(Kind::Plain) };
+    let convex = Slab { surface: 1, lo: Sheet::level(0.05), hi: Sheet::level(0.37), state: State::Convex(Kind::Plain) };
     let mut state = 5;
     let mut seen = 0;
     for _ in 0..200 {
@@ -160,8 +161,7 @@ fn a_convex_range_must_not_grow() {
         let mut open = vec![convex];
         if let Answer::Open(_) = look(&cell, 0..1, 1e-4, &mut open, &mut scratch, &mut work, &mut cost) {
             for slab in &open[1..] {
-                let inside =
-                    convex.lo.certainly_at_most(&slab.lo, part) && slab.hi.certainly_at_most(&convex.hi, part);
+                let inside = convex.lo.certainly_at_most(&slab.lo, part) && slab.hi.certainly_at_most(&convex.hi, part);
                 assert!(inside || !matches!(slab.state, State::Convex(_)), "{slab:?} has grown");
                 seen += usize::from(matches!(slab.state, State::Convex(_)));
             }
@@ -205,8 +205,8 @@ fn crossing_sheets_enclose_what_lies_between() {
             let t = 0.5 * (at(&lo) + at(&hi)) + 0.5 * s * (at(&hi) - at(&lo));
             let truth = valleys((light.point(u, v) * t).0, |k| k);
             let terms = [s, a, b, s * s, a * a, b * b, s * a, s * b, a * b];
-            let model: f64 =
-                form.linear().iter().chain(form.quadratic()).zip(terms).map(|(k, t)| k * t).sum::<f64>() + form.centre();
+            let model: f64 = form.linear().iter().chain(form.quadratic()).zip(terms).map(|(k, t)| k * t).sum::<f64>()
+                + form.centre();
             assert!((truth - model).abs() <= form.error() + 1e-12, "{slab:?} at {s} {a} {b}: {truth}, {form:?}");
         }
         assert!(form.error() < 0.5, "{form:?}");
@@ -222,8 +222,7 @@ fn cropping_loses_nothing() {
         for across in 0..2 {
             for lit_above in [false, true] {
                 let band = crate::geom::strips::Band { across, lit_above, undecided: [[from, to]; 2] };
-                let node =
-                    super::Node { unknown: 1.0, part, slabs: (0, 0), lit: 0.0, open: 1.0, band: Some(band) };
+                let node = super::Node { unknown: 1.0, part, slabs: (0, 0), lit: 0.0, open: 1.0, band: Some(band) };
                 let (mut sums, mut parts) = (super::Sums::default(), Vec::new());
                 super::crop(&node, &band, &mut sums, &mut parts);
                 let going_on: f64 = parts.iter().map(|(p, _)| super::area(*p)[0]).sum();
