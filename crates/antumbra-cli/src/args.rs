@@ -5,6 +5,7 @@ use std::{path::PathBuf, time::Duration};
 use antumbra::{
     render::{Method, Overlay, RenderSpec},
     report::Exhibit,
+    shadow::Penumbra,
 };
 use clap::{Parser, Subcommand};
 
@@ -138,6 +139,10 @@ pub(crate) struct SpecArgs {
     /// Certified: rectangles of the light that one hit may take before its bracket is left open
     #[arg(long, value_name = "N", default_value = "4000", value_parser = clap::value_parser!(u32).range(1..))]
     pub(crate) rectangles: u32,
+
+    /// Certified: how penumbrae are resolved: first (planes), second (quadratic models) or auto
+    #[arg(long, value_name = "ORDER", default_value = "auto", value_parser = values::penumbra)]
+    pub(crate) penumbra: Penumbra,
 
     /// Seed of random choices: the points of rays-mc, the pixels and rays of an audit
     #[arg(long, value_name = "N", default_value = "1")]

@@ -224,6 +224,7 @@ fn specs(args: SpecArgs, method: Method) -> (RenderSpec, RunSpec) {
         seed: args.seed,
         tolerance: args.tolerance,
         rectangles: args.rectangles,
+        penumbra: args.penumbra,
         ..RenderSpec::default()
     };
     (spec, RunSpec { threads: args.threads })

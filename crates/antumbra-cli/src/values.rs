@@ -5,6 +5,7 @@ use std::time::Duration;
 use antumbra::{
     render::{Method, Overlay},
     report::Exhibit,
+    shadow::Penumbra,
 };
 
 /// Width and height in pixels.
@@ -107,6 +108,11 @@ pub(crate) fn overlay(text: &str) -> Result<Overlay, String> {
 /// A method by its name.
 pub(crate) fn method(text: &str) -> Result<Method, String> {
     Method::from_name(text).ok_or_else(|| choices("methods", text, &Method::ALL.map(|(_, name, _)| name)))
+}
+
+/// A way to resolve penumbrae by its name.
+pub(crate) fn penumbra(text: &str) -> Result<Penumbra, String> {
+    Penumbra::from_name(text).ok_or_else(|| choices("orders", text, &Penumbra::ALL.map(|(_, name)| name)))
 }
 
 /// An exhibit by its name.

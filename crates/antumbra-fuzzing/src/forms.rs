@@ -57,7 +57,7 @@ fn planes<const N: usize>(tape: &Tape, input: &mut Input<'_>) {
     assert!(truth.possibly_in(values), "{y:?} at {s:?} does not admit {truth:?}, the value at {p:?}: {tape:?}");
 }
 
-fn slopes<P: Apex<N> + std::fmt::Debug, const N: usize>(tape: &Tape, input: &mut Input<'_>) {
+fn slopes<P: Apex<Affine<N>> + std::fmt::Debug, const N: usize>(tape: &Tape, input: &mut Input<'_>) {
     let s: [f64; N] = std::array::from_fn(|_| input.symbol());
     let t = Affine::linear(0.5, std::array::from_fn(|i| if i == 0 { 0.5 } else { 0.0 }), 0.0);
     let tau = 0.5 * s[0] + 0.5;

@@ -56,6 +56,7 @@ mod elementary;
 mod interval;
 pub mod lanes;
 mod power;
+pub mod quadratic;
 pub mod round;
 mod trig;
 

@@ -69,7 +69,7 @@ macro_rules! number {
     };
 }
 number!([] Interval, |k| k, |x, k| x * k + k);
-number!([<P: Apex<N>, const N: usize>] Slope<P, N>, Slope::constant, |x, k| x.mul_interval(k).add_interval(k));
+number!([<P: Apex<Affine<N>>, const N: usize>] Slope<P, N>, Slope::constant, |x, k| x.mul_interval(k).add_interval(k));
 number!([<const N: usize>] Dual<N>, Dual::constant, |x, k| x.mul_interval(k).add_interval(k));
 
 #[derive(Clone, Copy, Debug)]
@@ -208,7 +208,7 @@ impl<const N: usize> Path<N> {
 }
 
 /// Returns how often the slope was known.
-fn identity<P: Apex<N>, const N: usize>(
+fn identity<P: Apex<Affine<N>>, const N: usize>(
     seed: u64,
     random: usize,
     apex: fn(Affine<N>) -> P,

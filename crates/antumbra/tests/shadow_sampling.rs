@@ -17,7 +17,7 @@ use antumbra::eval::Workspace;
 use antumbra::geom::{Box3, Clip, Rect, Vec3};
 use antumbra::render::{Frame, Method, RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{Object, PRESETS, Scene, View, preset};
-use antumbra::shadow::{self, Receiver, Scratch, Tolerance, whole_beam};
+use antumbra::shadow::{self, Penumbra, Receiver, Scratch, Tolerance, whole_beam};
 use antumbra::trace::{Cost, Sign, Surface};
 use antumbra_interval::Interval;
 use light::{found, root, sees, visible};
@@ -245,7 +245,7 @@ fn sampling_confirms_odd_surfaces() {
             surface: own,
             side: if before > 0.0 { Sign::Positive } else { Sign::Negative },
         };
-        let tolerance = Tolerance { width: 1.0 / 255.0, rectangles: 300 };
+        let tolerance = Tolerance { width: 1.0 / 255.0, rectangles: 300, penumbra: Penumbra::default() };
         let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
         let pieces = whole_beam(&surfaces);
         let b = shadow::visible(&surfaces, &receiver, &light, &pieces, tolerance, &mut scratch, &mut work, &mut cost);

@@ -69,7 +69,7 @@ impl<const N: usize> Affine<N> {
     ///
     /// `t x + (1-t) y`, `t` in `[0, 1]`, differs from `(A + B)/2 + (t - 1/2)(A - B)` by at most `max(e_a, e_b)`, and that
     /// from `(A + B)/2` by at most `|A - B|/2`.
-    pub(super) fn between(self, o: Self) -> Self {
+    pub(crate) fn between(self, o: Self) -> Self {
         let (mut a, mut r) = ([0.0; N], (self.c - o.c).abs());
         let mut size = self.c.abs() + o.c.abs() + (self.e + o.e);
         for (i, k) in a.iter_mut().enumerate() {

@@ -1,4 +1,4 @@
-//! Affine forms with fixed symbols: planes with one error bound, and slopes of them.
+//! Affine forms with fixed symbols: planes with one error bound, and slopes and jets of them.
 //!
 //! An [`Affine`] form `c + a.s +- e` encloses a real function of symbols `s` in `[-1, 1]^N` *pointwise*:
 //! `|g(s) - c - sum a_i s_i| <= e` for every `s` where `g` is defined. The symbols keep their meaning through a whole
@@ -21,24 +21,29 @@
 mod arith;
 mod choice;
 mod curve;
-mod derivative;
+pub(crate) mod derivative;
 mod dual;
-mod nonlinear;
-mod point;
+pub(crate) mod form;
+mod jet;
+pub(crate) mod nonlinear;
+pub(crate) mod point;
 mod slope;
 mod trigonometric;
 
+pub use derivative::Smooth;
 pub use dual::Dual;
-pub use slope::{Apex, Slope};
+pub use form::{Apex, Form};
+pub use jet::Jet;
+pub use slope::{Slope, SlopeOf};
 
 use crate::Interval;
 
 /// Unit roundoff `u`.
-const U: f64 = f64::EPSILON / 2.0;
+pub(crate) const U: f64 = f64::EPSILON / 2.0;
 /// Covers every underflow of one operation: `2^52 eta`.
-const TINY: f64 = f64::MIN_POSITIVE;
+pub(crate) const TINY: f64 = f64::MIN_POSITIVE;
 /// No known form has a number this large (`2^1000`).
-const LARGE: f64 = 1.0715086071862673e301;
+pub(crate) const LARGE: f64 = 1.0715086071862673e301;
 
 /// A function of the symbols `s` in `[-1, 1]^N`, known up to an error: `|g(s) - c - sum a_i s_i| <= e`.
 ///
@@ -173,7 +178,7 @@ impl<const N: usize> From<Interval> for Affine<N> {
 /// `r = d + fl(2u d)`, `d` the larger of two rounded differences: a normal `d` is off by at most `u d`, and `2u d` is at
 /// least its last place, so `r` is at least the next float; a subnormal `d` is exact. NaN and infinity stay.
 #[inline(always)]
-fn centre_radius(k: Interval) -> (f64, f64) {
+pub(crate) fn centre_radius(k: Interval) -> (f64, f64) {
     let (lo, hi) = (k.lo(), k.hi());
     let m = 0.5 * lo + 0.5 * hi;
     // [-inf, hi]: NaN, inf; [lo, inf]: inf, NaN. A NaN first argument is dropped, m is infinite anyway.
@@ -183,7 +188,7 @@ fn centre_radius(k: Interval) -> (f64, f64) {
 
 /// Marks the branch of [`Affine::sealed`] that is hardly ever taken, else it becomes `N + 2` selections.
 #[cold]
-const fn overflow() {}
+pub(crate) const fn overflow() {}
 
 /// The larger one of two numbers that are not NaN; else `y`.
 #[inline(always)]

@@ -10,7 +10,7 @@ use crate::Interval;
 use std::ops::Div;
 
 /// Enclosure of pi/2: the constant is the float below.
-pub(super) const HALF_PI: Interval = Interval::new(std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2.next_up());
+pub(crate) const HALF_PI: Interval = Interval::new(std::f64::consts::FRAC_PI_2, std::f64::consts::FRAC_PI_2.next_up());
 
 /// `1/x` for `x > 0`; `h' = alpha` at `sqrt(-1/alpha)`.
 const RECIP: Formula = Formula {

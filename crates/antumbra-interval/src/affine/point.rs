@@ -12,12 +12,12 @@ pub(super) fn around(y: f64) -> Interval {
 }
 
 /// `[lo, hi]`, everything if that is no interval.
-pub(super) fn bounds(lo: f64, hi: f64) -> Interval {
+pub(crate) fn bounds(lo: f64, hi: f64) -> Interval {
     Interval::try_new(lo, hi).unwrap_or(Interval::ENTIRE)
 }
 
 /// The number `x`, everything if it is not finite.
-pub(super) fn exact(x: f64) -> Interval {
+pub(crate) fn exact(x: f64) -> Interval {
     bounds(x, x)
 }
 

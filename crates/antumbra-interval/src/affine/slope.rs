@@ -3,116 +3,40 @@
 //! With `P` the apex, `D` a direction and `t` a parameter, a [`Slope`] of `f` holds `f(P)`, `f(P + t D)` and a slope `g`
 //! with `f(P + t D) = f(P) + t g`, for every value of the symbols where both values are defined. At a zero `P` of `f` the
 //! sign of `f(P + t D)` is the sign of `t g`, without cancellation however small `t` is; `g` at `t = 0` is `grad f . D`.
-use super::{Affine, curve::narrower, derivative::Smooth, nonlinear::HALF_PI, point::exact};
+use super::{
+    Affine,
+    derivative::Smooth,
+    form::{Apex, Form},
+    nonlinear::HALF_PI,
+    point::exact,
+};
 use crate::Interval;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
-macro_rules! apex {
-    ($($name:ident)*) => {
-        /// The kind of number at the apex: [`Interval`] where the apex is (nearly) one point, [`Affine`] where it varies
-        /// with the symbols. Implemented for these two only.
-        pub trait Apex<const N: usize>:
-            Copy + Neg<Output = Self> + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self>
-            + sealed::Sealed
-        {
-            /// Some number of `k`.
-            #[must_use]
-            fn constant(k: Interval) -> Self;
-            /// Range of the values.
-            #[must_use]
-            fn range(self) -> Interval;
-            /// `x + self`.
-            #[must_use]
-            fn shift(self, x: Affine<N>) -> Affine<N>;
-            /// `x * self`.
-            #[must_use]
-            fn scale(self, x: Affine<N>) -> Affine<N>;
-            /// `self + k`.
-            #[must_use]
-            fn add_interval(self, k: Interval) -> Self;
-            /// `self * k`.
-            #[must_use]
-            fn mul_interval(self, k: Interval) -> Self;
-            /// `self^n`.
-            #[must_use]
-            fn powi(self, n: i32) -> Self;
-            /// `self^y`.
-            #[must_use]
-            fn pow(self, y: Self) -> Self;
-            /// Angle of the point `(x, self)`.
-            #[must_use]
-            fn atan2(self, x: Self) -> Self;
-            /// The smaller one.
-            #[must_use]
-            fn min(self, o: Self) -> Self;
-            /// The larger one.
-            #[must_use]
-            fn max(self, o: Self) -> Self;
-            $(
-                /// The operator of that name.
-                #[must_use]
-                fn $name(self) -> Self;
-            )*
-        }
-        impl<const N: usize> Apex<N> for Interval {
-            fn constant(k: Interval) -> Self { k }
-            fn range(self) -> Interval { self }
-            fn shift(self, x: Affine<N>) -> Affine<N> { x.add_interval(self) }
-            fn scale(self, x: Affine<N>) -> Affine<N> { x.mul_interval(self) }
-            fn add_interval(self, k: Interval) -> Self { self + k }
-            fn mul_interval(self, k: Interval) -> Self { self * k }
-            fn powi(self, n: i32) -> Self { Interval::powi(self, n) }
-            fn pow(self, y: Self) -> Self { Interval::pow(self, y) }
-            fn atan2(self, x: Self) -> Self { Interval::atan2(self, x) }
-            fn min(self, o: Self) -> Self { Interval::min(self, o) }
-            fn max(self, o: Self) -> Self { Interval::max(self, o) }
-            $( fn $name(self) -> Self { Interval::$name(self) } )*
-        }
-        impl<const N: usize> Apex<N> for Affine<N> {
-            fn constant(k: Interval) -> Self { Affine::constant(k) }
-            fn range(self) -> Interval { Affine::range(&self) }
-            fn shift(self, x: Affine<N>) -> Affine<N> { x + self }
-            fn scale(self, x: Affine<N>) -> Affine<N> { x * self }
-            fn add_interval(self, k: Interval) -> Self { Affine::add_interval(self, k) }
-            fn mul_interval(self, k: Interval) -> Self { Affine::mul_interval(self, k) }
-            fn powi(self, n: i32) -> Self { Affine::powi(self, n) }
-            fn pow(self, y: Self) -> Self { Affine::pow(self, y) }
-            fn atan2(self, x: Self) -> Self { Affine::atan2(self, x) }
-            fn min(self, o: Self) -> Self { Affine::min(self, o) }
-            fn max(self, o: Self) -> Self { Affine::max(self, o) }
-            $( fn $name(self) -> Self { Affine::$name(self) } )*
-        }
-    };
-}
-apex!(sqr sqrt cbrt abs sign floor exp ln sin cos tan asin acos atan sinh cosh tanh);
-
-mod sealed {
-    pub trait Sealed {}
-    impl Sealed for crate::Interval {}
-    impl<const N: usize> Sealed for super::Affine<N> {}
-}
+/// A slope whose value and slope are affine forms of `N` symbols.
+pub type Slope<P, const N: usize> = SlopeOf<P, Affine<N>>;
 
 /// `f(P)`, `f(P + t D)` and `g` with `f(P + t D) = f(P) + t g`. `t` itself is not stored: all operands share it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Slope<P, const N: usize> {
+pub struct SlopeOf<P, F> {
     /// `f(P)`, at the apex.
     pub apex: P,
     /// `f(P + t D)`.
-    pub value: Affine<N>,
+    pub value: F,
     /// `g`.
-    pub slope: Affine<N>,
+    pub slope: F,
 }
 
-impl<P: Apex<N>, const N: usize> Slope<P, N> {
+impl<P: Apex<F>, F: Form> SlopeOf<P, F> {
     /// A number of `k`, the same at the apex and elsewhere.
     #[must_use]
     pub fn constant(k: Interval) -> Self {
-        Self { apex: P::constant(k), value: Affine::constant(k), slope: Affine::ZERO }
+        Self { apex: P::constant(k), value: F::constant(k), slope: F::ZERO }
     }
 
     /// The coordinate `P + t d`, for the shared parameter `t`.
     #[must_use]
-    pub fn coordinate(apex: P, t: Affine<N>, d: Affine<N>) -> Self {
+    pub fn coordinate(apex: P, t: F, d: F) -> Self {
         Self { apex, value: apex.shift(t * d), slope: d }
     }
 
@@ -226,25 +150,18 @@ impl<P: Apex<N>, const N: usize> Slope<P, N> {
         Self::step(self.apex.floor(), self.value.floor())
     }
 
-    fn step(apex: P, value: Affine<N>) -> Self {
+    fn step(apex: P, value: F) -> Self {
         let both = apex.range().hull(value.range());
-        let slope = if both.lo() == both.hi() { Affine::ZERO } else { Affine::UNKNOWN };
+        let slope = if both.lo() == both.hi() { F::ZERO } else { F::UNKNOWN };
         Self { apex, value, slope }
     }
 
-    /// `h(f)` with values already computed. `(h(v) - h(p))/(v - p)` is the mean of `h'` from `p` to `v`, hence
-    /// - in the range of `h'` over the hull of both, and
-    /// - `h'(m) + h'''(xi) (v - p)^2 / 24`, `m = (p + v)/2`, `xi` between `p` and `v` (midpoint rule for `h'`).
-    ///
-    /// The domain being convex, `m` and `xi` are in it. The narrower enclosure is used.
-    fn smooth(self, h: Smooth, apex: P, value: Affine<N>) -> Self {
+    /// `h(f)` with values already computed: `(h(v) - h(p))/(v - p)` is the mean of `h'` from `p` to `v`.
+    fn smooth(self, h: Smooth, apex: P, value: F) -> Self {
         let both = self.apex.range().hull(self.value.range());
         let middle = self.apex.shift(self.value).mul_f64(0.5);
-        let d = exact((-self.apex).shift(self.value).range().magnitude());
-        // (v - p)^2 is anything from 0 to d^2.
-        let remainder = h.third_range(both) * (d.sqr() / exact(24.0)).hull(Interval::ZERO);
-        let curved = h.first(middle).add_interval(remainder);
-        Self { apex, value, slope: self.slope * narrower(curved, Affine::constant(h.first_range(both))) }
+        let difference = (-self.apex).shift(self.value);
+        Self { apex, value, slope: self.slope * F::mean_derivative(h, both, middle, difference) }
     }
 
     /// `e^f`.
@@ -307,7 +224,7 @@ impl<P: Apex<N>, const N: usize> Slope<P, N> {
     #[must_use]
     pub fn pow(self, y: Self) -> Self {
         let (apex, value) = (self.apex.pow(y.apex), self.value.pow(y.value));
-        if y.slope == Affine::ZERO {
+        if y.slope == F::ZERO {
             self.smooth(Smooth::Power(y.value.range()), apex, value)
         } else {
             Self { apex, value, slope: (y * self.ln()).exp().slope }
@@ -323,32 +240,32 @@ impl<P: Apex<N>, const N: usize> Slope<P, N> {
         } else if !ry.possibly_zero() {
             -(x / self).atan().slope
         } else {
-            Affine::UNKNOWN
+            F::UNKNOWN
         };
         Self { apex: self.apex.atan2(x.apex), value: self.value.atan2(x.value), slope }
     }
 }
 
-impl<P: Apex<N>, const N: usize> Neg for Slope<P, N> {
+impl<P: Apex<F>, F: Form> Neg for SlopeOf<P, F> {
     type Output = Self;
     fn neg(self) -> Self {
         Self { apex: -self.apex, value: -self.value, slope: -self.slope }
     }
 }
-impl<P: Apex<N>, const N: usize> Add for Slope<P, N> {
+impl<P: Apex<F>, F: Form> Add for SlopeOf<P, F> {
     type Output = Self;
     fn add(self, o: Self) -> Self {
         Self { apex: self.apex + o.apex, value: self.value + o.value, slope: self.slope + o.slope }
     }
 }
-impl<P: Apex<N>, const N: usize> Sub for Slope<P, N> {
+impl<P: Apex<F>, F: Form> Sub for SlopeOf<P, F> {
     type Output = Self;
     fn sub(self, o: Self) -> Self {
         Self { apex: self.apex - o.apex, value: self.value - o.value, slope: self.slope - o.slope }
     }
 }
 /// `v_a v_b - p_a p_b = (v_a - p_a) v_b + p_a (v_b - p_b)`.
-impl<P: Apex<N>, const N: usize> Mul for Slope<P, N> {
+impl<P: Apex<F>, F: Form> Mul for SlopeOf<P, F> {
     type Output = Self;
     fn mul(self, o: Self) -> Self {
         let slope = self.slope * o.value + self.apex.scale(o.slope);
@@ -356,7 +273,7 @@ impl<P: Apex<N>, const N: usize> Mul for Slope<P, N> {
     }
 }
 /// With `q = p_a / p_b`: `v_a / v_b - q = (v_a - q v_b) / v_b = ((v_a - p_a) - q (v_b - p_b)) / v_b`.
-impl<P: Apex<N>, const N: usize> Div for Slope<P, N> {
+impl<P: Apex<F>, F: Form> Div for SlopeOf<P, F> {
     type Output = Self;
     fn div(self, o: Self) -> Self {
         let q = self.apex / o.apex;

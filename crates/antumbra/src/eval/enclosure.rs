@@ -1,7 +1,8 @@
 //! The operators of the language on the enclosures of `antumbra-interval`: each is the method of that name.
 use super::Number;
 use crate::expr::{Binary, Unary};
-use antumbra_interval::affine::{Affine, Apex, Dual, Slope};
+use antumbra_interval::affine::{Affine, Apex, Dual, Form, Jet, SlopeOf};
+use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Interval};
 
 macro_rules! number {
@@ -62,4 +63,6 @@ number!([] Interval, |k| k);
 number!([] Decorated, Decorated::from);
 number!([const N: usize] Affine<N>, Affine::constant);
 number!([const N: usize] Dual<N>, Dual::constant);
-number!([P: Apex<N>, const N: usize] Slope<P, N>, Slope::constant);
+number!([P: Apex<F>, F: Form] SlopeOf<P, F>, SlopeOf::constant);
+number!([F: Form] Jet<F>, Jet::constant);
+number!([] Quadratic, Quadratic::constant);

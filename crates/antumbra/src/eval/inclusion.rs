@@ -1,8 +1,9 @@
 //! The one public trait: what the renderer needs to know of a function.
-use super::{Gradient, run};
+use super::{Gradient, PointJet, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
-use antumbra_interval::affine::{Affine, Dual, Slope};
+use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Decoration, Interval};
 
 /// Scratch memory of one thread. Start from `default()` and keep it: it only grows.
@@ -16,6 +17,11 @@ pub struct Workspace {
     beam_slopes: Vec<Slope<Interval, 3>>,
     shafts: Vec<Affine<5>>,
     shaft_slopes: Vec<Slope<Affine<5>, 5>>,
+    quadratics: Vec<Quadratic>,
+    quadratic_slopes: Vec<SlopeOf<Interval, Quadratic>>,
+    jets: Vec<Jet<Affine<3>>>,
+    jet_slopes: Vec<SlopeOf<Interval, Jet<Affine<3>>>>,
+    points: Vec<PointJet>,
 }
 
 /// A point on a beam piece, as linear functions of the beam's symbols: (t, i, j) of a camera frustum, (t, u, v) of a
@@ -23,6 +29,10 @@ pub struct Workspace {
 pub type BeamPoint = [Affine<3>; 3];
 /// A point in a shaft between a tile of hits and a light, over (t, u, v, i, j).
 pub type ShaftPoint = [Affine<5>; 3];
+/// A point on a beam piece, as quadratic functions of (s, a, b): along the piece, and across it.
+pub type QuadraticPoint = [Quadratic; 3];
+/// A point on a beam piece and its motion along the beam.
+pub type JetPoint = [Jet<Affine<3>>; 3];
 
 /// A real function of space with its inclusion functions (paper, section 2): everything a renderer may ask of it.
 ///
@@ -75,6 +85,33 @@ pub trait Inclusion: Send + Sync {
     /// The slope over a piece of a shaft, whose apex varies with the tile.
     fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
         mean_slope(self, Box3(point.map(|x| x.apex.range().hull(x.value.range()))), point.map(|x| x.slope), work)
+    }
+
+    /// The function over a piece of a beam, to second order. By default of first order only.
+    fn quadratic(&self, point: QuadraticPoint, work: &mut Workspace) -> Quadratic {
+        self.beam(point.map(|x| x.to_affine()), work).into()
+    }
+
+    /// The slope over a piece of a beam, to second order. By default of first order only.
+    fn quadratic_slope(&self, point: [SlopeOf<Interval, Quadratic>; 3], work: &mut Workspace) -> Quadratic {
+        let slopes = point.map(|x| Slope { apex: x.apex, value: x.value.to_affine(), slope: x.slope.to_affine() });
+        self.beam_slope(slopes, work).into()
+    }
+
+    /// Half the second derivative along the rays of a beam piece: known only where the function is proved twice
+    /// differentiable. By default nothing is known.
+    fn bend(&self, _point: JetPoint, _work: &mut Workspace) -> Interval {
+        Interval::ENTIRE
+    }
+
+    /// The same of the slope.
+    fn bend_slope(&self, _point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], _work: &mut Workspace) -> Interval {
+        Interval::ENTIRE
+    }
+
+    /// About the value and two derivatives along a line, rounded: never for proofs. By default difference quotients.
+    fn about(&self, point: [PointJet; 3], work: &mut Workspace) -> PointJet {
+        super::jet::by_differences(self, point, work)
     }
 }
 
@@ -175,5 +212,29 @@ impl Inclusion for Tape {
     #[inline]
     fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
         run(self, point, &mut work.shaft_slopes).slope
+    }
+
+    #[inline]
+    fn quadratic(&self, point: QuadraticPoint, work: &mut Workspace) -> Quadratic {
+        run(self, point, &mut work.quadratics)
+    }
+
+    #[inline]
+    fn quadratic_slope(&self, point: [SlopeOf<Interval, Quadratic>; 3], work: &mut Workspace) -> Quadratic {
+        run(self, point, &mut work.quadratic_slopes).slope
+    }
+
+    fn bend(&self, point: JetPoint, work: &mut Workspace) -> Interval {
+        let jet = run(self, point, &mut work.jets);
+        if jet.first.is_known() { jet.second.range() } else { Interval::ENTIRE }
+    }
+
+    fn bend_slope(&self, point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], work: &mut Workspace) -> Interval {
+        let jet = run(self, point, &mut work.jet_slopes).slope;
+        if jet.first.is_known() { jet.second.range() } else { Interval::ENTIRE }
+    }
+
+    fn about(&self, point: [PointJet; 3], work: &mut Workspace) -> PointJet {
+        run(self, point, &mut work.points)
     }
 }

@@ -8,14 +8,19 @@
 //! | [`Gradient`] | enclosures of f and of its three partial derivatives over a box |
 //! | [`Affine`](antumbra_interval::affine::Affine) | f as a linear function of beam parameters, with an error |
 //! | [`Slope`](antumbra_interval::affine::Slope) | f(P + t D) = f(P) + t g: g in affine form |
+//! | [`Quadratic`](antumbra_interval::quadratic::Quadratic) | f as a quadratic function of beam parameters, with an error; slopes of it too |
+//! | [`Jet`](antumbra_interval::affine::Jet) | f and its first two derivatives along a ray, in affine form; slopes of it too |
+//! | [`PointJet`] | the same at a point, rounded: to choose search paths, never for proofs |
 //! | [`Dual`](antumbra_interval::affine::Dual) | f and its derivative along a ray, in affine form |
 mod enclosure;
 mod gradient;
 mod inclusion;
+mod jet;
 mod machine;
 mod point;
 
 pub use gradient::Gradient;
-pub use inclusion::{BeamPoint, Inclusion, ShaftPoint, Workspace, centred_range};
+pub use inclusion::{BeamPoint, Inclusion, JetPoint, QuadraticPoint, ShaftPoint, Workspace, centred_range};
+pub use jet::PointJet;
 pub use machine::{Number, run};
 pub use point::value_at;

@@ -48,12 +48,26 @@ pub struct Scratch {
     bounds: Vec<Bound>,
 }
 
-/// A constraint `c + a u + b v >= 0` after the choice of the axis of integration.
+/// A constraint `c + a u + b v >= 0` after the choice of the axis of integration, u.
 #[derive(Clone, Copy, Debug)]
-struct Bound {
-    c: f64,
-    a: f64,
-    b: f64,
+pub(super) struct Bound {
+    pub(super) c: f64,
+    pub(super) a: f64,
+    pub(super) b: f64,
+}
+
+/// Lower bound of the mean, over u in `[-1, 1]`, of the length of the v in `[-1, 1]` that meet all constraints.
+pub(super) fn mean_in(bounds: &[Bound], s: &mut Scratch) -> f64 {
+    s.bounds.clear();
+    s.bounds.extend_from_slice(bounds);
+    0.5 * inner_area(s)
+}
+
+/// Upper bound of the same.
+pub(super) fn mean_out(bounds: &[Bound], s: &mut Scratch) -> f64 {
+    s.bounds.clear();
+    s.bounds.extend_from_slice(bounds);
+    0.5 * outer_area(s)
 }
 
 /// Certified shares of the square that are lit and not hidden. Time: linear in planes times corners, some 100 ns for

@@ -5,6 +5,8 @@ mod clip;
 mod fan;
 pub mod halfplanes;
 mod rect;
+mod sheet;
+pub mod strips;
 mod vector;
 
 pub use beam::{Beam, section};
@@ -12,4 +14,5 @@ pub use camera::{Camera, Film};
 pub use clip::{Clip, Passage};
 pub use fan::Fan;
 pub use rect::Rect;
+pub use sheet::Sheet;
 pub use vector::{Box3, Vec3};

@@ -1,5 +1,6 @@
 //! What to draw and how to run.
 use crate::paper;
+use crate::shadow::Penumbra;
 use crate::trace::Bisection;
 
 /// How shadows are found.
@@ -73,6 +74,8 @@ pub struct RenderSpec {
     pub tolerance: f64,
     /// Certified: rectangles of the light that one hit may take.
     pub rectangles: u32,
+    /// Certified: how penumbrae are resolved.
+    pub penumbra: Penumbra,
 }
 
 impl RenderSpec {
@@ -95,6 +98,7 @@ impl Default for RenderSpec {
             seed: 1,
             tolerance: 1.0 / 255.0,
             rectangles: 4000,
+            penumbra: Penumbra::default(),
         }
     }
 }

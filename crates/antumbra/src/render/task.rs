@@ -45,7 +45,7 @@ impl Task {
             bisection: spec.bisection,
             seed: spec.seed,
         };
-        let tolerance = Tolerance { width: spec.tolerance, rectangles: spec.rectangles };
+        let tolerance = Tolerance { width: spec.tolerance, rectangles: spec.rectangles, penumbra: spec.penumbra };
         let scaled = |light: &Light| Light { rect: light.rect.scaled(spec.light_scale), ..*light };
         let lights = scene.lights.iter().map(scaled).collect();
         Ok(Self { scene, objects, has_floor, film, lights, settings, tolerance, method: spec.method })

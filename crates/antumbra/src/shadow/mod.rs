@@ -11,14 +11,18 @@
 //! * **Subdivision.** The rectangle with the largest unknown area is divided into four; children inherit only the open
 //!   pieces of their parent.
 //!
+//! Where the light is partly visible, the second-order method takes over from the half planes ([`Penumbra`]).
+//!
 //! [`shaft`] settles whole tiles of hits at once, [`visible`] one hit.
 #![deny(clippy::float_arithmetic)]
 mod occluders;
 mod policy;
 mod rectangle;
+mod second;
 mod shaft;
 mod visible;
 
 pub use occluders::Receiver;
+pub use second::{Claim, Says};
 pub use shaft::{Shaft, ShaftVerdict, shaft};
-pub use visible::{Bracket, Scratch, Tolerance, visible, whole_beam};
+pub use visible::{Bracket, Penumbra, Scratch, Tolerance, visible, whole_beam};

@@ -2,6 +2,7 @@
 use super::occluders::{Receiver, fronts};
 use super::policy::{quarters, share};
 use super::rectangle::{self, Answer, Query};
+use super::second;
 use crate::eval::Workspace;
 use crate::geom::{Fan, Rect};
 use crate::trace::{Cost, Piece, Surface};
@@ -31,21 +32,59 @@ impl Bracket {
     pub const DARK: Self = Self { lo: 0.0, hi: 0.0, reason: None, first_free: false };
 }
 
-/// When to stop.
+/// How penumbrae are resolved. Both methods prove what they say; they differ in cost.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
+pub enum Penumbra {
+    /// Planes over short pieces of beams.
+    First,
+    /// Quadratic models of the least value along each ray, where they apply; else planes.
+    Second,
+    /// Quadratic models first; where they do not settle a hit with a fair amount of work, planes.
+    #[default]
+    Auto,
+}
+
+impl Penumbra {
+    /// Every choice with its name.
+    pub const ALL: [(Self, &'static str); 3] = [(Self::First, "first"), (Self::Second, "second"), (Self::Auto, "auto")];
+
+    /// The choice of that name.
+    #[must_use]
+    pub fn from_name(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|(_, n)| *n == name).map(|(p, _)| p)
+    }
+}
+
+/// When to stop, and by which method to go on until then.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Tolerance {
     /// Width of a bracket that is narrow enough.
     pub width: f64,
     /// Rectangles of a light that one hit may take.
     pub rectangles: u32,
+    /// The method.
+    pub penumbra: Penumbra,
 }
 
 /// Scratch memory of one thread.
 #[derive(Debug, Default)]
 pub struct Scratch {
     rectangle: rectangle::Scratch,
+    second: second::Scratch,
     pieces: Vec<Piece>,
     heap: BinaryHeap<Node>,
+}
+
+impl Scratch {
+    /// From now on, what the second-order method claims is written down.
+    pub fn record_claims(&mut self) {
+        self.second.claims = Some(Vec::new());
+    }
+
+    /// What it claimed since the last call, cell by cell. Every claim is a theorem; children repeat their parents.
+    pub fn take_claims(&mut self) -> Vec<second::Claim> {
+        self.second.claims.as_mut().map(std::mem::take).unwrap_or_default()
+    }
 }
 
 /// A rectangle that is partly unknown.
@@ -99,7 +138,21 @@ pub fn visible(
     let whole = Fan::towards(receiver.point, light, unit, unit);
     let fronts = fronts(surfaces, receiver, &whole, work, cost);
     let query = Query { surfaces, receiver, fronts: &fronts, light };
-    let Scratch { rectangle, pieces: arena, heap } = s;
+    let Scratch { rectangle, second, pieces: arena, heap } = s;
+    let mut tried = !second::worth(tolerance, second);
+    let mut by_second = |pieces: &[Piece], s: &mut second::Scratch, work: &mut Workspace, cost: &mut Cost| {
+        let reach = if tried { None } else { second::reach(&query, &whole, pieces, work) }?;
+        tried = true;
+        Some(second::fraction(&query, &reach, pieces, tolerance, s, work, cost))
+    };
+    // A bracket of the second-order method.
+    let mut other = [0.0, 1.0];
+    if let Some(found) = by_second(pieces, second, work, cost) {
+        if found.settles(tolerance) {
+            return found.bracket(tolerance);
+        }
+        other = [found.lo, found.hi];
+    }
     arena.clear();
     arena.extend_from_slice(pieces);
     heap.clear();
@@ -126,13 +179,24 @@ pub fn visible(
         if unknown <= tolerance.width || rectangles >= tolerance.rectangles {
             break;
         }
+        if rectangles == 1 {
+            // What was too long a beam to be proved continuous may have become short.
+            if let Some(found) = by_second(&arena[pieces.len()..], second, work, cost) {
+                other = [found.lo, found.hi];
+                rectangles += found.cells;
+                if found.settles(tolerance) {
+                    break;
+                }
+            }
+        }
         let Some(node) = heap.pop() else { break };
         // Rounded up, so the sum may creep upwards, by far less than a tolerance.
         unknown = if heap.is_empty() { 0.0 } else { sub_up(unknown, node.unknown) };
         parts.extend(quarters(node.part[0], node.part[1]).map(|part| (part, node.pieces.0, node.pieces.1)));
     }
-    let lo = heap.iter().fold(lit, |sum, node| add_down(sum, node.lit)).clamp(0.0, 1.0);
-    let hi = heap.iter().fold(lit_up, |sum, node| add_up(sum, node.open)).clamp(0.0, 1.0);
+    // Both brackets hold.
+    let lo = heap.iter().fold(lit, |sum, node| add_down(sum, node.lit)).clamp(other[0], other[1]);
+    let hi = heap.iter().fold(lit_up, |sum, node| add_up(sum, node.open)).clamp(other[0], other[1]);
     let reason = (sub_up(hi, lo) > tolerance.width).then_some(Reason::Budget);
     Bracket { lo, hi, reason, first_free: rectangles == 1 && lit == 1.0 }
 }

@@ -1,6 +1,7 @@
 //! The kinds of number that tapes run on.
 use antumbra::eval::{Gradient, Number};
-use antumbra_interval::affine::{Affine, Dual, Slope};
+use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Interval};
 use std::fmt::Debug;
 
@@ -77,7 +78,7 @@ impl Kind for Dual<1> {
 /// `P + t D` with t in [0, 1], P a point of the box and D enclosing all of the box around it.
 fn path<P, const N: usize, const K: usize>(x: [Interval; K], apex: impl Fn(Interval) -> P) -> [Slope<P, N>; K]
 where
-    P: antumbra_interval::affine::Apex<N>,
+    P: antumbra_interval::affine::Apex<Affine<N>>,
 {
     let t = Affine::spanning(0, Interval::new(0.0, 1.0));
     std::array::from_fn(|k| {
@@ -105,5 +106,51 @@ impl Kind for Slope<Affine<5>, 5> {
     }
     fn range(&self) -> Interval {
         self.value.range()
+    }
+}
+
+impl Kind for Quadratic {
+    const NAME: &'static str = "quadratic form";
+    fn over<const K: usize>(x: [Interval; K]) -> [Self; K] {
+        variables::<3, K>(x).map(Self::from)
+    }
+    fn range(&self) -> Interval {
+        Self::range(self)
+    }
+}
+
+impl Kind for SlopeOf<Interval, Quadratic> {
+    const NAME: &'static str = "quadratic slope from a point";
+    fn over<const K: usize>(x: [Interval; K]) -> [Self; K] {
+        let affine: [Slope<Interval, 3>; K] = path(x, |p| p);
+        affine.map(|x| Self { apex: x.apex, value: x.value.into(), slope: x.slope.into() })
+    }
+    fn range(&self) -> Interval {
+        self.value.range()
+    }
+}
+
+impl Kind for Jet<Affine<3>> {
+    const NAME: &'static str = "jet of affine forms";
+    fn over<const K: usize>(x: [Interval; K]) -> [Self; K] {
+        variables(x).map(|value| Self::line(value, Affine::constant(Interval::ONE)))
+    }
+    fn range(&self) -> Interval {
+        self.value.range()
+    }
+}
+
+impl Kind for SlopeOf<Interval, Jet<Affine<3>>> {
+    const NAME: &'static str = "slope of jets from a point";
+    fn over<const K: usize>(x: [Interval; K]) -> [Self; K] {
+        let affine: [Slope<Interval, 3>; K] = path(x, |p| p);
+        affine.map(|x| Self {
+            apex: x.apex,
+            value: Jet::line(x.value, x.slope),
+            slope: Jet::line(x.slope, Affine::ZERO),
+        })
+    }
+    fn range(&self) -> Interval {
+        self.value.value.range()
     }
 }

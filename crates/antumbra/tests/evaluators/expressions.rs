@@ -3,7 +3,8 @@ use crate::containment::{Kind, Operator, interval, member};
 use antumbra::eval::{Gradient, run};
 use antumbra::expr::{Axis, Binary, Unary};
 use antumbra::tape::{Clause, Op, Tape};
-use antumbra_interval::affine::{Affine, Dual, Slope};
+use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Interval};
 use fastrand::Rng;
 use num_rational::BigRational;
@@ -100,6 +101,10 @@ fn ranges(tape: &Tape, x: [Interval; 3]) -> Vec<(&'static str, Interval)> {
         one::<Slope<Interval, 3>>(tape, x),
         one::<Slope<Affine<5>, 5>>(tape, x),
         one::<Dual<1>>(tape, x),
+        one::<Quadratic>(tape, x),
+        one::<SlopeOf<Interval, Quadratic>>(tape, x),
+        one::<Jet<Affine<3>>>(tape, x),
+        one::<SlopeOf<Interval, Jet<Affine<3>>>>(tape, x),
     ]
 }
 

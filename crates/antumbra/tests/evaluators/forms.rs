@@ -8,12 +8,12 @@ use antumbra_interval::{Decorated, Interval};
 use fastrand::Rng;
 
 /// A multiple of 2^-20 in [-1, 1]: products and sums of a few of them are exact.
-fn coarse(r: &mut Rng) -> f64 {
+pub(super) fn coarse(r: &mut Rng) -> f64 {
     f64::from(r.i32(-(1 << 20)..=1 << 20)) / f64::from(1 << 20)
 }
 
 /// A multiple of 1/8 in [-1, 1], often an end.
-fn symbol(r: &mut Rng) -> f64 {
+pub(super) fn symbol(r: &mut Rng) -> f64 {
     f64::from([-8, 8, r.i32(-8..=8)][r.usize(0..3)]) / 8.0
 }
 
@@ -66,7 +66,7 @@ fn planes_hold_at_every_symbol_value() {
 }
 
 /// `f(P + t D) = f(P) + t g` where all three are exact floats: t in [0, 1] from symbol 0.
-fn slopes<P: Apex<N> + std::fmt::Debug, const N: usize>(seed: u64) {
+fn slopes<P: Apex<Affine<N>> + std::fmt::Debug, const N: usize>(seed: u64) {
     let mut r = Rng::with_seed(seed);
     for operator in Operator::all() {
         let mut known = 0;
@@ -108,13 +108,13 @@ fn slopes_hold_at_every_symbol_value() {
     slopes::<Affine<5>, 5>(45);
 }
 
-fn compile(text: &str) -> (Formula, Tape) {
+pub(super) fn compile(text: &str) -> (Formula, Tape) {
     let formula = Formula::parse(text).unwrap_or_else(|e| panic!("{}", e.render(text)));
     let tape = Tape::compile(&formula).unwrap();
     (formula, tape)
 }
 
-const FORMULAS: [&str; 12] = [
+pub(super) const FORMULAS: [&str; 12] = [
     "((x^2 + y^2 - 1)^2 + z^2) ((y^2 + z^2 - 1)^2 + x^2) ((z^2 + x^2 - 1)^2 + y^2) - 0.01",
     "x^4 + y^4 + z^4 - x^2 - y^2 - z^2 + 1/2",
     "(x^2 + 3) (y^2 + 3) (z^2 + 3) - 32 (x y z + 1)",

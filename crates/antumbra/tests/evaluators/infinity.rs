@@ -4,7 +4,8 @@ use antumbra::eval::{Gradient, Inclusion, Number, Workspace, run};
 use antumbra::expr::Formula;
 use antumbra::geom::{Beam, Box3, Vec3};
 use antumbra::tape::Tape;
-use antumbra_interval::affine::{Affine, Dual, Slope};
+use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Interval};
 use fastrand::Rng;
 
@@ -67,6 +68,9 @@ fn nothing_is_excluded_of_unknown_operands() {
     nothing_is_excluded::<Slope<Interval, 3>>(66);
     nothing_is_excluded::<Slope<Affine<5>, 5>>(67);
     nothing_is_excluded::<Dual<1>>(68);
+    nothing_is_excluded::<Quadratic>(69);
+    nothing_is_excluded::<SlopeOf<Interval, Quadratic>>(70);
+    nothing_is_excluded::<Jet<Affine<3>>>(71);
 }
 
 /// No kind of number decides the sign of a surface that has both signs out there.
@@ -87,6 +91,8 @@ fn unknown_places_prove_no_sign() {
         open(&tape, text, [Affine::<1>::UNKNOWN; 3]);
         open(&tape, text, [Affine::<3>::linear(f64::NAN, [1.0; 3], 0.0); 3]);
         open(&tape, text, [Slope::<Interval, 3>::coordinate(Interval::ENTIRE, Affine::UNKNOWN, Affine::UNKNOWN); 3]);
+        open(&tape, text, [Quadratic::UNKNOWN; 3]);
+        open(&tape, text, [Quadratic::polynomial(0.0, [0.0; 3], [f64::NAN; 6], 0.0); 3]);
         open(&tape, text, [Dual::<1> { value: Affine::UNKNOWN, derivative: Affine::UNKNOWN }; 3]);
     }
 }

@@ -3,5 +3,6 @@ mod expressions;
 mod forms;
 mod infinity;
 mod operators;
+mod quadratic;
 mod tightness;
 mod user_functions;

@@ -1,7 +1,8 @@
 //! Every operator on random boxes.
 use crate::containment::{self, Count, Kind, Operator, contains, interval, member};
 use antumbra::eval::Gradient;
-use antumbra_interval::affine::{Affine, Dual, Slope};
+use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Interval};
 use fastrand::Rng;
 
@@ -37,6 +38,10 @@ fn every_kind_of_number_encloses_every_value() {
     enclose_every_value::<Slope<Interval, 3>>(7);
     enclose_every_value::<Slope<Affine<5>, 5>>(8);
     enclose_every_value::<Dual<1>>(9);
+    enclose_every_value::<Quadratic>(12);
+    enclose_every_value::<SlopeOf<Interval, Quadratic>>(13);
+    enclose_every_value::<Jet<Affine<3>>>(14);
+    enclose_every_value::<SlopeOf<Interval, Jet<Affine<3>>>>(15);
 }
 
 /// What the example `containment` runs, smaller.

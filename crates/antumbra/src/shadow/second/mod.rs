@@ -1,0 +1,333 @@
+//! Penumbrae to second order: the visible fraction of a light from one hit, by quadratic models.
+//!
+//! Where the first-order method ([`super::visible`]) covers an open part of the beam with many short pieces and bounds each
+//! by a plane, this one follows the *least value along each ray*: near an occluder's silhouette it is a smooth function of
+//! the point of the light. Its parts, each proved in `docs/mathematics.md`:
+//!
+//! * **Slabs** between two sheets `t = k + u_slope u + v_slope v`, sheared so that the least value stays in the middle
+//!   ([`slab`]). Over a parallel slab a quadratic form of a polynomial of degree 2 is exact.
+//! * **Core convexity**: once convex in t, a long core needs but one thin slab ([`cell`]).
+//! * **Elimination** of t: bounds of the least value as quadratic polynomials over the light
+//!   ([`antumbra_interval::quadratic`]).
+//! * **Strips**: certified areas beside quadratic curves, and the band that stays unknown ([`crate::geom::strips`]).
+//! * **Cropped subdivision**: a cell is divided along the silhouette, and only the band goes on.
+mod cell;
+mod policy;
+mod slab;
+
+use super::rectangle::Query;
+use super::visible::{Bracket, Penumbra, Tolerance};
+use crate::eval::Workspace;
+use crate::geom::strips::{Band, Curve};
+use crate::geom::{Fan, Sheet};
+use crate::trace::{Cost, Piece, Surface, certainly_continuous};
+use crate::verdict::Reason;
+use antumbra_interval::Interval;
+use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
+use cell::{Answer, look};
+use slab::{Cell, Slab, State};
+use std::cmp::Ordering;
+use std::collections::BinaryHeap;
+
+/// Scratch memory of one thread.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    cell: cell::Scratch,
+    slabs: Vec<Slab>,
+    heap: BinaryHeap<Node>,
+    parts: Vec<Part>,
+    trust: policy::Trust,
+    /// Everything that is claimed, if somebody wants to know.
+    pub(super) claims: Option<Vec<Claim>>,
+}
+
+/// What was proved of a part of the light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Claim {
+    /// Parameters u, v of the light.
+    pub part: [Interval; 2],
+    /// What is said of it.
+    pub says: Says,
+}
+
+/// A statement about all points of a part of a light.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Says {
+    /// All are visible.
+    Lit,
+    /// None is.
+    Dark,
+    /// With `(a, b)` in `[-1, 1]^2` running over the part: those are visible at which every curve's `lower > error`; those are
+    /// not at which some hiding curve's `upper < -error`.
+    Curves(Vec<Curve>),
+}
+
+type Part = ([Interval; 2], (usize, usize));
+
+/// A cell that is partly unknown.
+#[derive(Clone, Debug, PartialEq)]
+struct Node {
+    unknown: f64,
+    part: [Interval; 2],
+    slabs: (usize, usize),
+    /// Bounds of its visible share of the whole light.
+    lit: f64,
+    open: f64,
+    band: Option<Band>,
+}
+
+impl Eq for Node {}
+
+impl PartialOrd for Node {
+    fn partial_cmp(&self, o: &Self) -> Option<Ordering> {
+        Some(self.cmp(o))
+    }
+}
+
+impl Ord for Node {
+    /// By the unknown area; equal ones by place, so that the order is always the same.
+    fn cmp(&self, o: &Self) -> Ordering {
+        self.unknown
+            .total_cmp(&o.unknown)
+            .then_with(|| o.part[0].lo().total_cmp(&self.part[0].lo()))
+            .then_with(|| o.part[1].lo().total_cmp(&self.part[1].lo()))
+    }
+}
+
+/// Bounds of a visible fraction, and the cells that it took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Fraction {
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+    pub(super) cells: u32,
+}
+
+impl Fraction {
+    /// Whether nothing more is to be done.
+    pub(super) fn settles(&self, tolerance: Tolerance) -> bool {
+        tolerance.penumbra == Penumbra::Second || sub_up(self.hi, self.lo) <= tolerance.width
+    }
+
+    pub(super) fn bracket(&self, tolerance: Tolerance) -> Bracket {
+        let reason = (sub_up(self.hi, self.lo) > tolerance.width).then_some(Reason::Budget);
+        Bracket { lo: self.lo, hi: self.hi, reason, first_free: self.cells == 1 && self.lo == 1.0 }
+    }
+}
+
+/// For each surface, the parameter up to which it is proved continuous on all rays, so that an opposite sign is a proof.
+/// `None` if the method does not apply to these pieces: then some surface has no front sign, or may break.
+pub(super) fn reach(query: &Query<'_>, whole: &Fan, pieces: &[Piece], work: &mut Workspace) -> Option<Vec<f64>> {
+    let mut reach_of = |(surface, at): (usize, &Surface<'_>)| {
+        let mut of = pieces.iter().filter(|p| p.surface == surface).map(|p| p.t);
+        let Some(first) = of.next() else { return Some(0.0) };
+        query.fronts[surface]?;
+        if at.function.continuous_everywhere() {
+            return Some(1.0);
+        }
+        let t = of.fold(first, Interval::hull).hull(Interval::ZERO);
+        certainly_continuous(at.function, &whole.box_at(t), work).then_some(t.hi())
+    };
+    query.surfaces.iter().enumerate().map(&mut reach_of).collect()
+}
+
+/// Whether the method is to be tried on the next hit: with `Auto`, not where it has failed of late.
+pub(super) fn worth(tolerance: Tolerance, s: &mut Scratch) -> bool {
+    match tolerance.penumbra {
+        Penumbra::First => false,
+        Penumbra::Second => true,
+        Penumbra::Auto => s.trust.worth(),
+    }
+}
+
+/// The visible fraction, given the open pieces of the beam to the whole light.
+pub(super) fn fraction(
+    query: &Query<'_>,
+    reach: &[f64],
+    pieces: &[Piece],
+    tolerance: Tolerance,
+    s: &mut Scratch,
+    work: &mut Workspace,
+    cost: &mut Cost,
+) -> Fraction {
+    let Scratch { cell: scratch, slabs, heap, parts, claims, .. } = s;
+    let most = match tolerance.penumbra {
+        Penumbra::Auto => cost.evaluations + policy::fair(tolerance.width),
+        _ => u64::MAX,
+    };
+    scratch.forget();
+    heap.clear();
+    slabs.clear();
+    slabs.extend(whole_slabs(pieces));
+    let unit = Interval::new(-1.0, 1.0);
+    parts.clear();
+    parts.push(([unit; 2], (0, slabs.len())));
+    let mut sums = Sums::default();
+    let (mut unknown, mut cells, mut all_lit) = (0.0, 0, true);
+    loop {
+        while let Some((part, (from, to))) = parts.pop() {
+            cells += 1;
+            let begin = slabs.len();
+            let area = area(part);
+            let cell = Cell::new(query, reach, part);
+            let enough = policy::enough(tolerance.width, area[1]);
+            let answer = look(&cell, from..to, enough, slabs, scratch, work, cost);
+            if let Some(claims) = claims {
+                let says = match answer {
+                    Answer::Lit => Says::Lit,
+                    Answer::Dark => Says::Dark,
+                    Answer::Open(_) => Says::Curves(scratch.curves().to_vec()),
+                };
+                claims.push(Claim { part, says });
+            }
+            match answer {
+                Answer::Dark => all_lit = false,
+                Answer::Lit => sums.book(area),
+                Answer::Open(found) => {
+                    let (lit, open) = (mul_down(area[0], found.lit), mul_up(area[1], found.open));
+                    let unknown_here = sub_up(open, lit);
+                    unknown = add_up(unknown, unknown_here);
+                    let slabs = (begin, slabs.len());
+                    heap.push(Node { unknown: unknown_here, part, slabs, lit, open, band: found.band });
+                }
+            }
+        }
+        if cells >= tolerance.rectangles || cost.evaluations >= most {
+            break;
+        }
+        if unknown <= tolerance.width {
+            // Narrow enough; but lit or dark all over is worth a little more.
+            let [lo, hi] = bounds(&sums, heap);
+            if heap.is_empty() || !policy::perhaps_all_the_same(lo, hi, cells) {
+                break;
+            }
+        }
+        let Some(node) = heap.pop() else { break };
+        // Rounded up, so the sum may creep upwards, by far less than a tolerance.
+        unknown = if heap.is_empty() { 0.0 } else { sub_up(unknown, node.unknown) };
+        let band = node.band.filter(policy::crop_pays);
+        if let Some(band) = band {
+            all_lit = false;
+            crop(&node, &band, &mut sums, parts);
+        } else {
+            let shape = policy::Shape::of(query.light, query.receiver.point.mid(), node.part);
+            divide(&node, shape.halved(), parts);
+        }
+    }
+    // Where every part is lit, so is the whole: rounded sums would not say so.
+    let [lo, hi] = if heap.is_empty() && all_lit { [1.0; 2] } else { bounds(&sums, heap) };
+    s.trust.tell(sub_up(hi, lo) <= tolerance.width);
+    Fraction { lo, hi, cells }
+}
+
+/// Bounds of the lit area of settled parts and open cells.
+fn bounds(sums: &Sums, heap: &BinaryHeap<Node>) -> [f64; 2] {
+    let lo = heap.iter().fold(sums.lo, |sum, node| add_down(sum, node.lit));
+    let hi = heap.iter().fold(sums.hi, |sum, node| add_up(sum, node.open));
+    [lo.clamp(0.0, 1.0), hi.clamp(0.0, 1.0)]
+}
+
+/// Bounds of what is certainly lit among the settled parts.
+#[derive(Clone, Copy, Debug, Default)]
+struct Sums {
+    lo: f64,
+    hi: f64,
+}
+
+impl Sums {
+    /// A settled part whose lit area is in the interval.
+    fn book(&mut self, [lo, hi]: [f64; 2]) {
+        (self.lo, self.hi) = (add_down(self.lo, lo), add_up(self.hi, hi));
+    }
+}
+
+/// Bounds of the share of the light that a part covers: a quarter of its area, exactly.
+fn area([u, v]: [Interval; 2]) -> [f64; 2] {
+    let (du, dv) = (sub_down(u.hi(), u.lo()), sub_down(v.hi(), v.lo()));
+    let (eu, ev) = (sub_up(u.hi(), u.lo()), sub_up(v.hi(), v.lo()));
+    [mul_down(0.25, mul_down(du, dv)), mul_up(0.25, mul_up(eu, ev))]
+}
+
+/// Pieces of one surface that touch as slabs on all rays.
+fn whole_slabs(pieces: &[Piece]) -> Vec<Slab> {
+    let mut sorted = pieces.to_vec();
+    sorted.sort_by(|a, b| a.surface.cmp(&b.surface).then(a.t.lo().total_cmp(&b.t.lo())));
+    let mut joined: Vec<Piece> = Vec::with_capacity(sorted.len());
+    for piece in sorted {
+        match joined.last_mut() {
+            Some(last) if last.surface == piece.surface && piece.t.lo() <= last.t.hi() => last.t = last.t.hull(piece.t),
+            _ => joined.push(piece),
+        }
+    }
+    let slab = |p: Piece| Slab {
+        surface: p.surface,
+        lo: Sheet::level(p.t.lo()),
+        hi: Sheet::level(p.t.hi()),
+        state: State::Open,
+    };
+    joined.into_iter().map(slab).collect()
+}
+
+/// Halves of an interval; they share their edge.
+fn halves(t: Interval) -> [Interval; 2] {
+    let mid = t.mid();
+    [Interval::new(t.lo(), mid), Interval::new(mid, t.hi())]
+}
+
+/// Two or four equal parts.
+fn divide(node: &Node, halved: [bool; 2], parts: &mut Vec<Part>) {
+    let [u, v] = node.part;
+    let cuts = |t: Interval, cut: bool| if cut { halves(t).to_vec() } else { vec![t] };
+    for v in cuts(v, halved[1]) {
+        parts.extend(cuts(u, halved[0]).into_iter().map(|u| ([u, v], node.slabs)));
+    }
+}
+
+/// Two halves along the band. Across it, only the undecided part goes on; what lies beyond on one side is lit and booked,
+/// on the other hidden.
+///
+/// The place `x` of `[-1, 1]` is `(lo + hi)/2 + (hi - lo)/2 x` of the range across: enclosed, cut to it. A part from the lower end
+/// of one enclosure to the upper end of the other holds all undecided places; both rests are settled all over.
+fn crop(node: &Node, band: &Band, sums: &mut Sums, parts: &mut Vec<Part>) {
+    let (across, along) = (node.part[band.across], halves(node.part[1 - band.across]));
+    let point = Interval::point;
+    let half = point(0.5);
+    let place = |x: f64| {
+        let (lo, hi) = (point(across.lo()), point(across.hi()));
+        ((lo + hi) * half + (hi - lo) * half * point(x)).intersection(across)
+    };
+    let oriented = |across: Interval, along: Interval| if band.across == 0 { [across, along] } else { [along, across] };
+    for ([from, to], along) in band.undecided.into_iter().zip(along) {
+        let (first, last) = (place(from.clamp(-1.0, 1.0)), place(to.clamp(-1.0, 1.0)));
+        // Beyond [-1, 1] nothing is left on that side.
+        let begin = if from <= -1.0 || first.is_empty() { across.lo() } else { first.lo() };
+        let end = if to >= 1.0 || last.is_empty() { across.hi() } else { last.hi() };
+        let beyond = |edge: f64| {
+            let lit = if band.lit_above { Interval::new(edge, across.hi()) } else { Interval::new(across.lo(), edge) };
+            area(oriented(lit, along))
+        };
+        if from < to && begin < end {
+            sums.book(beyond(if band.lit_above { end } else { begin }));
+            parts.push((oriented(Interval::new(begin, end), along), node.slabs));
+            continue;
+        }
+        // Nothing is undecided. Certainly lit beyond one edge, certainly not before the other.
+        let (lit, hidden) = if band.lit_above { (last, first) } else { (first, last) };
+        let edge = |x: Interval, up: bool, whole: f64| {
+            if x.is_empty() {
+                whole
+            } else if up {
+                x.hi()
+            } else {
+                x.lo()
+            }
+        };
+        let least = if band.lit_above { edge(lit, true, across.hi()) } else { edge(lit, false, across.lo()) };
+        let most = if band.lit_above { edge(hidden, false, across.lo()) } else { edge(hidden, true, across.hi()) };
+        let ([lo, _], [_, hi]) = (beyond(least), beyond(most));
+        sums.book([lo, hi]);
+    }
+}
+
+#[cfg(test)]
+#[allow(clippy::float_arithmetic, reason = "truths to compare with")]
+mod tests;

@@ -1,0 +1,315 @@
+//! Where to look and where to cut: choices that cost or save time and never touch a proof.
+#![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
+use super::slab::Kind;
+use crate::eval::PointJet;
+use crate::geom::strips::Band;
+use crate::geom::{Rect, Sheet, Vec3};
+use antumbra_interval::Interval;
+use antumbra_interval::quadratic::Quadratic;
+
+/// Half thickness of the main slab, in widths of the cell.
+const MAIN: f64 = 1.0;
+/// Half thickness of the core around it, in half thicknesses of the main slab.
+const CORE: f64 = 3.0;
+/// A slab is short if its half length is at most this many widths.
+const SHORT: f64 = 2.1;
+/// Widths grow along the beam as t, but count at least as at this t.
+const NEAR: f64 = 0.1;
+/// The slope form is used where `lo <= SLOPE hi`, or `hi < CLOSE`.
+const SLOPE: f64 = 0.3;
+const CLOSE: f64 = 0.15;
+/// No slab is cut below this length, ...
+const SHORTEST: f64 = 1e-9;
+/// ... nor after so many evaluations in one cell.
+const MOST: u64 = 400;
+/// A band is cropped if its width is at most this part of the cell's 2.
+const CROP: f64 = 1.3;
+/// Newton steps on the middle ray.
+const STEPS: usize = 7;
+/// Cells that certainty may take where the bracket is narrow already.
+const CERTAIN: u32 = 9;
+/// Evaluations for one hit after which planes get their chance, at a tolerance of 1/255.
+const FAIR: f64 = 800.0;
+/// Thickenings of the main slab before convexity is given up.
+pub(super) const TRIES: usize = 3;
+
+/// Sizes of a cell, in plain numbers.
+pub(super) struct Shape {
+    apex: Vec3,
+    light: Rect,
+    centre: [f64; 2],
+    half: [f64; 2],
+    /// Length of the middle ray.
+    distance: f64,
+    /// Half the longer edge, on the light.
+    width: f64,
+}
+
+/// Begin and end of a slab on the middle ray.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Extent {
+    pub(super) lo: f64,
+    pub(super) hi: f64,
+}
+
+impl Extent {
+    pub(super) fn slope_pays(self) -> bool {
+        self.lo <= SLOPE * self.hi || self.hi < CLOSE
+    }
+
+    pub(super) fn middle(self) -> f64 {
+        0.5 * (self.lo + self.hi)
+    }
+}
+
+fn at(sheet: &Sheet, [u, v]: [f64; 2]) -> f64 {
+    sheet.k + sheet.slopes[0] * u + sheet.slopes[1] * v
+}
+
+impl Shape {
+    pub(super) fn of(light: &Rect, apex: Vec3, part: [Interval; 2]) -> Self {
+        let centre = part.map(|r| r.mid());
+        let half = part.map(|r| 0.5 * (r.hi() - r.lo()));
+        let distance = (light.point(centre[0], centre[1]) - apex).length();
+        let width = (half[0] * light.edge_u.length()).max(half[1] * light.edge_v.length());
+        Self { apex, light: *light, centre, half, distance, width }
+    }
+
+    pub(super) fn extent(&self, lo: &Sheet, hi: &Sheet) -> Extent {
+        Extent { lo: at(lo, self.centre), hi: at(hi, self.centre) }
+    }
+
+    /// Half width of the beam at t, in units of t.
+    fn lateral(&self, t: f64) -> f64 {
+        self.width * t.max(NEAR) / self.distance
+    }
+
+    pub(super) fn short(&self, x: Extent) -> bool {
+        0.5 * (x.hi - x.lo) <= (SHORT * self.lateral(x.middle())).max(SHORTEST)
+    }
+
+    /// Whether a slab beside the main one is to be cut in two, after so many evaluations in this cell.
+    pub(super) fn long(&self, x: Extent, evaluations: u64) -> bool {
+        !self.short(x) && evaluations < MOST
+    }
+
+    /// The point at t on the ray to `(u, v)`, moving with t.
+    pub(super) fn line(&self, [u, v]: [f64; 2], t: f64) -> [PointJet; 3] {
+        let d = self.light.point(u, v) - self.apex;
+        std::array::from_fn(|k| PointJet { value: self.apex[k] + t * d[k], first: d[k], second: 0.0 })
+    }
+
+    /// About the place of the least value between two sheets, and how it moves across the cell. `about` gives values on
+    /// rays.
+    pub(super) fn plan(&self, lo: &Sheet, hi: &Sheet, mut about: impl FnMut([f64; 2], f64) -> PointJet) -> Plan {
+        let Extent { lo: first, hi: last } = self.extent(lo, hi);
+        let length = last - first;
+        let (mut t, mut a, mut b) = (0.5 * (first + last), first, last);
+        let mut g = PointJet::default();
+        let mut found = false;
+        for _ in 0..STEPS {
+            g = about(self.centre, t);
+            if g.first > 0.0 {
+                b = t
+            } else {
+                a = t
+            }
+            let mut next = if g.second > 0.0 {
+                t - 0.5 * g.first / g.second
+            } else if g.first > 0.0 {
+                0.5 * (a + t)
+            } else {
+                0.5 * (b + t)
+            };
+            if !(next > a) {
+                next = if t - a > 0.3 * length { 0.5 * (a + t) } else { a };
+            }
+            if !(next < b) {
+                next = if b - t > 0.3 * length { 0.5 * (b + t) } else { b };
+            }
+            let moved = (next - t).abs();
+            t = next;
+            if moved < 0.05 * self.lateral(t) {
+                found = true;
+                break;
+            }
+        }
+        let width = MAIN * self.lateral(t);
+        let mut slopes = [0.0; 2];
+        if found && g.second > 0.0 && t > first + 0.05 * width && t < last - 0.05 * width {
+            for k in 0..2 {
+                let mut slope_at = |d: f64| {
+                    let mut place = self.centre;
+                    place[k] += d * self.half[k];
+                    about(place, t).first
+                };
+                let slope = -(slope_at(0.5) - slope_at(-0.5)) / (2.0 * g.second * self.half[k]);
+                let most = 2.0 * width / self.half[k];
+                slopes[k] = if slope.is_finite() { slope.max(-most).min(most) } else { 0.0 };
+            }
+            // The covers of the inherited sheets must stay between hit and light.
+            let over = |sheet: &Sheet| {
+                (0..2).map(|k| ((sheet.slopes[k] - slopes[k]).abs() + slopes[k].abs()) * self.half[k]).sum::<f64>()
+            };
+            if first - over(lo) < 0.0 || last + over(hi) > 1.0 {
+                slopes = [0.0; 2];
+            }
+        }
+        let k = t - slopes[0] * self.centre[0] - slopes[1] * self.centre[1];
+        Plan { middle: Sheet { k, slopes }, width }
+    }
+
+    /// Whether a cut is well inside: above `lo` by a margin at the middle ray.
+    pub(super) fn above(&self, cut: &Sheet, lo: &Sheet, margin: f64) -> bool {
+        at(cut, self.centre) > at(lo, self.centre) + margin
+    }
+
+    /// Whether two slabs touch, up to little.
+    pub(super) fn touch(&self, before: &Sheet, lo: &Sheet, hi: &Sheet) -> bool {
+        let (end, begin) = (at(before, self.centre), at(lo, self.centre));
+        begin <= end + 1e-3 * (at(hi, self.centre) - begin)
+    }
+
+    /// For sorting along the middle ray.
+    pub(super) fn place(&self, sheet: &Sheet) -> f64 {
+        at(sheet, self.centre)
+    }
+
+    /// How the light is divided: which parameters are halved.
+    pub(super) fn halved(&self) -> [bool; 2] {
+        let edges = [self.half[0] * self.light.edge_u.length(), self.half[1] * self.light.edge_v.length()];
+        if edges[0] > 2.0 * edges[1] {
+            [true, false]
+        } else if edges[1] > 2.0 * edges[0] {
+            [false, true]
+        } else {
+            [true, true]
+        }
+    }
+}
+
+/// Where the least value of a slab is expected: a sheet, and half a thickness around it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Plan {
+    middle: Sheet,
+    pub(super) width: f64,
+}
+
+impl Plan {
+    pub(super) fn slopes(&self) -> [f64; 2] {
+        self.middle.slopes
+    }
+
+    /// The sheet so many widths beyond the middle.
+    pub(super) fn sheet(&self, widths: f64) -> Sheet {
+        Sheet { k: self.middle.k + widths * self.width, ..self.middle }
+    }
+
+    pub(super) fn core(&self) -> [Sheet; 2] {
+        [self.sheet(-CORE), self.sheet(CORE)]
+    }
+
+    /// A thicker main slab, so that at its ends the parabola rises above the error.
+    pub(super) fn thicker(&mut self, form: &Quadratic) -> bool {
+        let bend = form.quadratic()[0];
+        self.width *= (5.0 * form.error() / bend).sqrt().clamp(1.4, 2.5);
+        bend > 0.0 && self.width.is_finite()
+    }
+}
+
+/// The sheet half-way.
+pub(super) fn between(lo: &Sheet, hi: &Sheet) -> Sheet {
+    Sheet { k: 0.5 * (lo.k + hi.k), slopes: std::array::from_fn(|i| 0.5 * (lo.slopes[i] + hi.slopes[i])) }
+}
+
+/// Signs and kind applied to a jet of f at t.
+pub(super) fn seen_from_front(f: PointJet, kind: Kind, t: f64, negative: bool) -> PointJet {
+    let sign = if negative { -1.0 } else { 1.0 };
+    let f = PointJet { value: sign * f.value, first: sign * f.first, second: sign * f.second };
+    match kind {
+        Kind::Plain => f,
+        // f = t g: g = f/t, g' = (f' - g)/t, g''/2 = (f''/2 - g')/t.
+        Kind::Slope => {
+            let t = t.max(1e-9);
+            let value = f.value / t;
+            let first = (f.first - value) / t;
+            PointJet { value, first, second: (f.second - first) / t }
+        }
+    }
+}
+
+/// Evaluations that are fair for one hit: the second-order method needs at most about `width^-0.3`.
+pub(super) fn fair(width: f64) -> u64 {
+    (FAIR * (1.0 / (255.0 * width)).max(1.0).sqrt()) as u64
+}
+
+/// Whether the method is worth trying: it has settled hits of late, or it is time to try again.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Trust {
+    failures: u32,
+    skipped: u32,
+}
+
+impl Trust {
+    pub(super) fn worth(&mut self) -> bool {
+        if self.failures < 3 || self.skipped >= 7 {
+            self.skipped = 0;
+            return true;
+        }
+        self.skipped += 1;
+        false
+    }
+
+    pub(super) fn tell(&mut self, settled: bool) {
+        self.failures = if settled { 0 } else { self.failures + 1 };
+    }
+}
+
+/// Whether a narrow bracket may be that of a light that is visible as a whole, or not at all, which a few more cells might
+/// prove.
+pub(super) fn perhaps_all_the_same(lo: f64, hi: f64, cells: u32) -> bool {
+    cells < CERTAIN && (hi > 1.0 - 1e-9 || lo < 1e-9)
+}
+
+/// The factor that makes two kinds of function comparable at about t: any positive one is sound.
+pub(super) fn factor(from: Kind, to: Kind, t: f64) -> f64 {
+    let t = t.max(1e-3);
+    match (from, to) {
+        (Kind::Plain, Kind::Slope) => 1.0 / t,
+        (Kind::Slope, Kind::Plain) => t,
+        _ => 1.0,
+    }
+}
+
+/// Whether to divide a cell along its band rather than in quarters.
+pub(super) fn crop_pays(band: &Band) -> bool {
+    band.undecided.iter().all(|[from, to]| to - from < CROP)
+}
+
+/// A share of the cell that does not matter against the tolerance.
+pub(super) fn enough(tolerance: f64, area: f64) -> f64 {
+    0.1 * tolerance / area
+}
+
+/// Whether plain intervals are worth trying first: as long as they keep succeeding. One for long, one for short slabs.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Trial {
+    asked: u32,
+    run: u32,
+    free: u32,
+}
+
+impl Trial {
+    /// Slabs that begin nearer than this are never free by plain intervals.
+    pub(super) const NEAREST: f64 = 0.02;
+
+    pub(super) fn worth(&mut self) -> bool {
+        self.asked += 1;
+        self.asked < 6 || self.free * 6 > self.run || self.asked.is_multiple_of(16)
+    }
+
+    pub(super) fn tell(&mut self, free: bool) {
+        self.run += 1;
+        self.free += u32::from(free);
+    }
+}

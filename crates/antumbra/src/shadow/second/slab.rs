@@ -1,0 +1,215 @@
+//! Slabs of shadow beams between two sheets, and the function over them.
+use super::super::rectangle::Query;
+use super::policy::{Extent, Shape};
+use crate::eval::{PointJet, Workspace};
+use crate::geom::{Box3, Fan, Passage, Sheet};
+use crate::trace::{Cost, Sign};
+use antumbra_interval::Interval;
+use antumbra_interval::affine::{Affine, Jet, SlopeOf};
+use antumbra_interval::quadratic::Quadratic;
+
+/// Which function of t is looked at: f itself, or the slope g with `f = t g`, for the surface that was hit.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Kind {
+    Plain,
+    Slope,
+}
+
+/// What is known of a slab.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum State {
+    /// Nothing.
+    Open,
+    /// It lies beside the least value: not worth a search.
+    Outer,
+    /// The function of this kind is proved convex in t throughout the slab, on all rays of the cell.
+    Convex(Kind),
+}
+
+/// The parameters `lo(u, v) <= t <= hi(u, v)` of one surface. (Where the sheets cross, those in between.)
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Slab {
+    pub(super) surface: usize,
+    pub(super) lo: Sheet,
+    pub(super) hi: Sheet,
+    pub(super) state: State,
+}
+
+/// A rectangle of the light, seen from one hit.
+pub(super) struct Cell<'a> {
+    pub(super) query: &'a Query<'a>,
+    pub(super) part: [Interval; 2],
+    pub(super) shape: Shape,
+    /// The parameters u and v of the light, as forms.
+    symbols: [Affine<3>; 2],
+    fan: Fan,
+    directions: Box3,
+    passages: Vec<Passage>,
+    reach: &'a [f64],
+}
+
+impl<'a> Cell<'a> {
+    /// `reach`: for each surface, the parameter up to which it is proved continuous on all rays.
+    pub(super) fn new(query: &'a Query<'a>, reach: &'a [f64], part: [Interval; 2]) -> Self {
+        let fan = Fan::towards(query.receiver.point, query.light, part[0], part[1]);
+        let directions = fan.directions();
+        let passages = query.surfaces.iter().map(|at| at.passage(&fan.apex, &directions)).collect();
+        Self {
+            query,
+            part,
+            shape: Shape::of(query.light, query.receiver.point.mid(), part),
+            symbols: [Affine::spanning(1, part[0]), Affine::spanning(2, part[1])],
+            fan,
+            directions,
+            passages,
+            reach,
+        }
+    }
+
+    pub(super) fn extent(&self, slab: &Slab) -> Extent {
+        self.shape.extent(&slab.lo, &slab.hi)
+    }
+
+    /// What of a slab is inside the surface's region: beyond it nothing occludes. `None` if nothing is.
+    ///
+    /// A parameter of the slab that is not beyond the region on every ray lies in `outer`, so it may be cut off at the ends of
+    /// that. A convex slab stays as it is: it must not grow, not even where its sheets already lie inside.
+    pub(super) fn clipped(&self, slab: &Slab) -> Option<Slab> {
+        let outer = self.passages[slab.surface].outer;
+        let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
+        if !t.possibly_intersects(outer) {
+            return None;
+        }
+        let (lo, hi) = (Sheet::level(outer.lo()), Sheet::level(outer.hi()));
+        let mut inside = *slab;
+        if !matches!(slab.state, State::Convex(_)) {
+            if slab.lo.certainly_at_most(&lo, self.part) {
+                inside.lo = lo;
+            }
+            if outer.hi() < f64::INFINITY && hi.certainly_at_most(&slab.hi, self.part) {
+                inside.hi = hi;
+            }
+        }
+        Some(inside)
+    }
+
+    /// The kind of function that suits a slab.
+    pub(super) fn kind(&self, slab: &Slab) -> Kind {
+        let own = slab.surface == self.query.receiver.surface;
+        if own && self.extent(slab).slope_pays() { Kind::Slope } else { Kind::Plain }
+    }
+
+    /// Whether the function is to be taken with the opposite sign, so that it is positive at the front.
+    fn negative(&self, surface: usize) -> bool {
+        self.query.fronts[surface].is_some_and(|f| f.sign == Sign::Negative)
+    }
+
+    /// Whether a negative value at any parameter of the slab, on a ray, proves that the ray is hidden: it must lie between
+    /// the front and the light, inside the region together with the front, on all rays, and where f has been proved
+    /// continuous from the apex on.
+    pub(super) fn inside(&self, slab: &Slab) -> bool {
+        let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
+        let passage = &self.passages[slab.surface];
+        self.query.fronts[slab.surface].is_some_and(|front| {
+            front.at <= t.lo()
+                && t.hi() <= self.reach[slab.surface]
+                && t.is_subset_of(passage.inner.intersection(Interval::new(0.0, 1.0)))
+        })
+    }
+
+    /// The points of the slab, `s` running from one sheet to the other.
+    ///
+    /// With `A = (lo + hi)/2`, `B = (hi - lo)/2`: `t = A + B s` takes every value in between. Parallel sheets have a constant
+    /// `B`: then t is affine and `P + t D` has degree 2, so nothing is lost.
+    fn points(&self, slab: &Slab) -> [Quadratic; 3] {
+        let mean = (slab.lo.form(&self.symbols) + slab.hi.form(&self.symbols)).mul_f64(0.5);
+        let s = Affine::symbol(0);
+        let apex = &self.fan.apex;
+        if slab.lo.slopes == slab.hi.slopes {
+            let half = (Interval::point(slab.hi.k) - Interval::point(slab.lo.k)) * Interval::point(0.5);
+            let t = mean + s.mul_interval(half);
+            std::array::from_fn(|k| Quadratic::product_of(&t, &self.fan.direction[k]).add_interval(apex[k]))
+        } else {
+            let half = (slab.hi.form(&self.symbols) - slab.lo.form(&self.symbols)).mul_f64(0.5);
+            let t = Quadratic::from(mean) + Quadratic::product_of(&half, &s);
+            std::array::from_fn(|k| (t * Quadratic::from(self.fan.direction[k])).add_interval(apex[k]))
+        }
+    }
+
+    /// The function over the slab, positive at the front.
+    pub(super) fn form(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Quadratic {
+        cost.evaluations += 1;
+        let points = self.points(slab);
+        let function = self.query.surfaces[slab.surface].function;
+        let form = match kind {
+            Kind::Plain => function.quadratic(points, work),
+            Kind::Slope => {
+                let slopes = std::array::from_fn(|k| SlopeOf {
+                    apex: self.fan.apex[k],
+                    value: points[k],
+                    slope: Quadratic::from(self.fan.direction[k]),
+                });
+                function.quadratic_slope(slopes, work)
+            }
+        };
+        if self.negative(slab.surface) { -form } else { form }
+    }
+
+    /// Whether the function is proved convex in t throughout the slab, on every ray of the cell.
+    ///
+    /// `t = A + B s` with the largest `B` covers the slab.
+    pub(super) fn certainly_convex(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> bool {
+        cost.evaluations += 1;
+        let (lo, hi) = (slab.lo.form(&self.symbols), slab.hi.form(&self.symbols));
+        let reach = (hi - lo).mul_f64(0.5).range().magnitude();
+        if !reach.is_finite() {
+            return false;
+        }
+        let t = (lo + hi).mul_f64(0.5) + Affine::symbol(0).mul_f64(reach);
+        let direction = &self.fan.direction;
+        let points: [Jet<Affine<3>>; 3] =
+            std::array::from_fn(|k| Jet::line((t * direction[k]).add_interval(self.fan.apex[k]), direction[k]));
+        let function = self.query.surfaces[slab.surface].function;
+        let bend = match kind {
+            Kind::Plain => function.bend(points, work),
+            Kind::Slope => {
+                let slopes = std::array::from_fn(|k| SlopeOf {
+                    apex: self.fan.apex[k],
+                    value: points[k],
+                    slope: Jet::line(direction[k], Affine::ZERO),
+                });
+                function.bend_slope(slopes, work)
+            }
+        };
+        let bend = if self.negative(slab.surface) { -bend } else { bend };
+        !bend.is_empty() && bend.lo() >= 0.0
+    }
+
+    /// Whether plain intervals prove the slab free.
+    pub(super) fn certainly_free(&self, slab: &Slab, work: &mut Workspace, cost: &mut Cost) -> bool {
+        let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
+        if t.lo() <= 0.0 {
+            return false;
+        }
+        cost.evaluations += 1;
+        let region = Box3(std::array::from_fn(|k| self.fan.apex[k] + t * self.directions[k]));
+        let range = self.query.surfaces[slab.surface].function.range(&region, work);
+        let range = if self.negative(slab.surface) { -range } else { range };
+        range.certainly_positive()
+    }
+
+    /// About the function on the ray to `(u, v)` at `t`, and its derivatives by t: for choices only.
+    pub(super) fn about(&self, surface: usize, kind: Kind, at: [f64; 2], t: f64, work: &mut Workspace) -> PointJet {
+        let points = self.shape.line(at, t);
+        let jet = self.query.surfaces[surface].function.about(points, work);
+        super::policy::seen_from_front(jet, kind, t, self.negative(surface))
+    }
+}
+
+/// One slab that holds all parameters of both, over the cell: sheets parallel to those of the first.
+pub(super) fn merged(a: &Slab, b: &Slab, part: [Interval; 2]) -> Slab {
+    let (below, above) = (b.lo.below(a.lo.slopes, part), b.hi.above(a.hi.slopes, part));
+    let lo = if below.k < a.lo.k { below } else { a.lo };
+    let hi = if above.k > a.hi.k { above } else { a.hi };
+    Slab { surface: a.surface, lo, hi, state: State::Open }
+}
