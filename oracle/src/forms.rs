@@ -35,7 +35,7 @@ macro_rules! operators {
         const BINARY: &[Binary] = &[Binary::Add, Binary::Sub, Binary::Mul, Binary::Div, $(Binary::$binary,)*];
 
         operators!(@form [const N: usize] Affine<N>; $($unary $u)*; $($binary $b)*;);
-        operators!(@form [P: Apex<N>, const N: usize] Slope<P, N>; $($unary $u)*; $($binary $b)*;);
+        operators!(@form [P: Apex<Affine<N>>, const N: usize] Slope<P, N>; $($unary $u)*; $($binary $b)*;);
     };
     (@form [$($generics:tt)*] $kind:ty; $($unary:ident $u:ident)*; $($binary:ident $b:ident)*;) => {
         impl<$($generics)*> Form for $kind {
@@ -227,7 +227,7 @@ fn value<const N: usize>(operator: Operator, g: &mut Generator, count: &mut Coun
 }
 
 /// `f(P + t D) = f(P) + t g` where P, t and D are exact floats: t in [0, 1] from symbol 0.
-fn slope<P: Apex<N> + std::fmt::Debug, const N: usize>(operator: Operator, g: &mut Generator, count: &mut Count) {
+fn slope<P: Apex<Affine<N>> + std::fmt::Debug, const N: usize>(operator: Operator, g: &mut Generator, count: &mut Count) {
     let s: [f64; N] = std::array::from_fn(|_| symbol(g));
     let t = Affine::linear(0.5, std::array::from_fn(|i| if i == 0 { 0.5 } else { 0.0 }), 0.0);
     let tau = 0.5 * s[0] + 0.5;

@@ -68,7 +68,7 @@ fn hit(scene: &Scene, judges: &[Judge], random: &mut fastrand::Rng) -> Option<Hi
 
 fn ask(objects: &[Object], hit: &Hit, light: &Rect, width: f64, penumbra: Penumbra) -> (Bracket, Vec<Claim>, Cost) {
     let surfaces: Vec<Surface<'_>> =
-        objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip, region: o.region }).collect();
+        objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() }).collect();
     let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
     scratch.record_claims();
     let tolerance = Tolerance { width, rectangles: 3000, penumbra };
@@ -117,7 +117,7 @@ fn check(name: &str, scene: &Scene, floor: bool, scale: f64, width: f64, hits: u
     if floor {
         objects.push(scene.floor().unwrap());
     }
-    let (judges, light) = (judges(&objects), scene.light.scaled(scale));
+    let (judges, light) = (judges(&objects), scene.lights[0].rect.scaled(scale));
     let mut random = fastrand::Rng::with_seed(17);
     let (mut found, mut tried) = (0, 0);
     while found < hits && tried < 60 * hits {
