@@ -121,10 +121,10 @@ impl Shape {
             } else {
                 0.5 * (b + t)
             };
-            if !(next > a) {
+            if next <= a || next.is_nan() {
                 next = if t - a > 0.3 * length { 0.5 * (a + t) } else { a };
             }
-            if !(next < b) {
+            if next >= b || next.is_nan() {
                 next = if b - t > 0.3 * length { 0.5 * (b + t) } else { b };
             }
             let moved = (next - t).abs();
@@ -203,6 +203,11 @@ impl Plan {
     /// The sheet so many widths beyond the middle.
     pub(super) fn sheet(&self, widths: f64) -> Sheet {
         Sheet { k: self.middle.k + widths * self.width, ..self.middle }
+    }
+
+    /// What a cut must be inside of the core to be worth it.
+    pub(super) fn margin(&self) -> f64 {
+        0.02 * self.width
     }
 
     pub(super) fn core(&self) -> [Sheet; 2] {
