@@ -108,8 +108,8 @@ fn elimination_is_exact_up_to_its_error() {
         assert!(&lower - &error <= at(p[0]), "{x:?} at {p:?}: {least:?}");
         // The minimiser, rounded; close to it the parabola is flat.
         let [h, n] = [x.quadratic()[0], x.linear()[0] + x.quadratic()[3] * p[1] + x.quadratic()[4] * p[2]];
-        let inner = (-0.5 * n / h).clamp(-1.0, 1.0);
-        let best = [-1.0, 1.0, if inner.is_nan() { 0.0 } else { inner }]
+        let inner = -0.5 * n / h;
+        let best = [-1.0, 1.0, if inner.abs() <= 1.0 { inner } else { 0.0 }]
             .map(at)
             .into_iter()
             .reduce(|a, b| if a < b { a } else { b })

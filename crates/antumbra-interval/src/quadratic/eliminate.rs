@@ -1,6 +1,7 @@
 //! The least value along a beam: the symbol `s` eliminated from a quadratic form.
 use super::{Quadratic, TINY, U, norm, parabola_low};
 use crate::affine::LARGE;
+use crate::round::{greater, lesser};
 
 /// A polynomial `c + l_a a + l_b b + q_aa a^2 + q_bb b^2 + q_ab a b` with exactly these coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -58,6 +59,18 @@ impl Eliminated {
         let zero = Paraboloid { c: 0.0, l: [0.0; 2], q: [0.0; 3] };
         Self { lower: zero, upper: zero, error: f64::INFINITY }
     };
+
+    /// `g > 0` for every `s`, `a`, `b`.
+    #[must_use]
+    pub fn certainly_positive(&self) -> bool {
+        self.lower.lower_bound() > self.error
+    }
+
+    /// For every `(a, b)` there is an `s` with `g < 0`.
+    #[must_use]
+    pub fn certainly_negative_somewhere(&self) -> bool {
+        self.upper.upper_bound() < -self.error
+    }
 }
 
 impl Quadratic {
@@ -107,14 +120,7 @@ impl Quadratic {
             (m, m, size)
         } else if h > 1e-3 * reach {
             let (m, size) = schur();
-            let s = -0.5 * ls / h;
-            let s = if s < -1.0 {
-                -1.0
-            } else if s > 1.0 {
-                1.0
-            } else {
-                s
-            };
+            let s = lesser(greater(-0.5 * ls / h, -1.0), 1.0);
             (m, self.at(s).0, size)
         } else {
             let (mut m, size) = self.at(0.0);

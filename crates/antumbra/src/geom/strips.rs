@@ -206,7 +206,7 @@ impl Along {
         let steepness = l0 + 2.0 * aa * m;
         let g = -(lb + 2.0 * bb * bm + ab * m) / steepness * d;
         // A line that runs away says nothing.
-        if !(g.abs() <= 64.0) {
+        if g.abs() > 64.0 || g.is_nan() {
             return None;
         }
         let reach = m.abs() + g.abs();
@@ -240,14 +240,14 @@ impl Along {
     }
 
     fn offset(&self, z: f64, up: bool) -> Option<Line> {
-        if !(self.least > 0.0) {
+        if self.least <= 0.0 || self.least.is_nan() {
             return None;
         }
         // About twice the offset; then all that the square may need.
         let near = 2.0 * z.abs() / self.steep;
         [near, 4.0].into_iter().find_map(|tau| {
             let [least, most] = self.steepness(tau);
-            if !(least > 0.0) {
+            if least <= 0.0 || least.is_nan() {
                 return None;
             }
             let h = match (up, z > 0.0) {

@@ -118,11 +118,11 @@ fn plain(
     let kind = cell.kind(slab);
     let form = cell.form(slab, kind, work, cost);
     let least = form.eliminate();
-    if free(&least) || dominated(&form, kind, &s.constraints) {
+    if least.certainly_positive() || dominated(&form, kind, &s.constraints) {
         return Settled::Slab;
     }
     let hides = cell.inside(slab);
-    if hides && hidden(&least) {
+    if hides && least.certainly_negative_somewhere() {
         return Settled::DarkCell;
     }
     if cell.shape.long(extent, cost.evaluations - s.before) {
@@ -200,12 +200,12 @@ fn narrow(
             let form = cell.form(&main, kind, work, cost);
             let least = form.eliminate();
             let hides = cell.inside(&main);
-            if hides && hidden(&least) {
+            if hides && least.certainly_negative_somewhere() {
                 return Settled::DarkCell;
             }
             let rises = |cut: bool, s: f64| !cut || rises_beyond(&form, &least, s);
             if ordered && rises(cut_lo, -1.0) && rises(cut_hi, 1.0) {
-                if !free(&least) {
+                if !least.certainly_positive() {
                     open.push(Slab { state: State::Convex(kind), ..core });
                     s.constraints.push(constraint(&least, hides, kind, cell.extent(&main).middle()));
                 }
@@ -232,21 +232,11 @@ fn narrow(
 fn main_slab(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [bool; 2]) {
     let (lo, hi) = (plan.sheet(-1.0), plan.sheet(1.0));
     let inside = |cut: &_| core.lo.certainly_at_most(cut, cell.part) && cut.certainly_at_most(&core.hi, cell.part);
-    let margin = 0.02 * plan.width;
+    let margin = plan.margin();
     let cut_lo = cell.shape.above(&lo, &core.lo, margin) && inside(&lo);
     let cut_hi = cell.shape.above(&core.hi, &hi, margin) && inside(&hi);
     let (lo, hi) = (if cut_lo { lo } else { core.lo }, if cut_hi { hi } else { core.hi });
     (Slab { lo, hi, state: State::Outer, ..*core }, [cut_lo, cut_hi])
-}
-
-/// Whether the least value over the slab is positive on every ray.
-fn free(least: &Eliminated) -> bool {
-    least.lower.lower_bound() > least.error
-}
-
-/// Whether there is a negative value on every ray.
-fn hidden(least: &Eliminated) -> bool {
-    least.upper.upper_bound() < -least.error
 }
 
 /// Whether on every ray the function at the end `s` of the slab is above its upper bound `U + e` inside:
@@ -261,7 +251,7 @@ fn rises_beyond(form: &Quadratic, least: &Eliminated, s: f64) -> bool {
 fn dominated(form: &Quadratic, kind: Kind, constraints: &[Constraint]) -> bool {
     constraints.iter().filter(|c| c.curve.hides).any(|c| {
         let factor = policy::factor(c.kind, kind, c.t);
-        free(&form.minus(factor, &c.curve.upper, c.curve.error).eliminate())
+        form.minus(factor, &c.curve.upper, c.curve.error).eliminate().certainly_positive()
     })
 }
 

@@ -29,7 +29,7 @@ const STEPS: usize = 7;
 /// Cells that certainty may take where the bracket is narrow already.
 const CERTAIN: u32 = 9;
 /// Evaluations for one hit after which planes get their chance, at a tolerance of 1/255.
-const FAIR: f64 = 800.0;
+const FAIR: f64 = 4000.0;
 /// Thickenings of the main slab before convexity is given up.
 pub(super) const TRIES: usize = 3;
 
@@ -121,10 +121,10 @@ impl Shape {
             } else {
                 0.5 * (b + t)
             };
-            if !(next > a) {
+            if next <= a || next.is_nan() {
                 next = if t - a > 0.3 * length { 0.5 * (a + t) } else { a };
             }
-            if !(next < b) {
+            if next >= b || next.is_nan() {
                 next = if b - t > 0.3 * length { 0.5 * (b + t) } else { b };
             }
             let moved = (next - t).abs();
@@ -205,6 +205,11 @@ impl Plan {
         Sheet { k: self.middle.k + widths * self.width, ..self.middle }
     }
 
+    /// What a cut must be inside of the core to be worth it.
+    pub(super) fn margin(&self) -> f64 {
+        0.02 * self.width
+    }
+
     pub(super) fn core(&self) -> [Sheet; 2] {
         [self.sheet(-CORE), self.sheet(CORE)]
     }
@@ -243,25 +248,24 @@ pub(super) fn fair(width: f64) -> u64 {
     (FAIR * (1.0 / (255.0 * width)).max(1.0).sqrt()) as u64
 }
 
-/// Whether the method is worth trying: it has settled hits of late, or it is time to try again.
+/// Whether the method is worth trying: it has settled hits of late, or it is time to try again. After each failure but the
+/// first the pause is twice as long.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Trust {
+    pause: u32,
     failures: u32,
-    skipped: u32,
 }
 
 impl Trust {
     pub(super) fn worth(&mut self) -> bool {
-        if self.failures < 3 || self.skipped >= 7 {
-            self.skipped = 0;
-            return true;
-        }
-        self.skipped += 1;
-        false
+        let worth = self.pause == 0;
+        self.pause = self.pause.saturating_sub(1);
+        worth
     }
 
     pub(super) fn tell(&mut self, settled: bool) {
         self.failures = if settled { 0 } else { self.failures + 1 };
+        self.pause = if self.failures > 1 { 4 << self.failures.min(6) } else { 0 };
     }
 }
 
