@@ -73,7 +73,8 @@ impl<'a> Cell<'a> {
     /// What of a slab is inside the surface's region: beyond it nothing occludes. `None` if nothing is.
     ///
     /// A parameter of the slab that is not beyond the region on every ray lies in `outer`, so it may be cut off at the ends of
-    /// that. A convex slab stays as it is: it must not grow, not even where its sheets already lie inside.
+    /// that. That pays only where the clip cuts the surface: elsewhere it would but tilt the sheets. A convex slab stays as it is:
+    /// it must not grow, not even where its sheets already lie inside.
     pub(super) fn clipped(&self, slab: &Slab) -> Option<Slab> {
         let outer = self.passages[slab.surface].outer;
         let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
@@ -82,7 +83,8 @@ impl<'a> Cell<'a> {
         }
         let (lo, hi) = (Sheet::level(outer.lo()), Sheet::level(outer.hi()));
         let mut inside = *slab;
-        if !matches!(slab.state, State::Convex(_)) {
+        let at = &self.query.surfaces[slab.surface];
+        if at.region == at.clip && !matches!(slab.state, State::Convex(_)) {
             if slab.lo.certainly_at_most(&lo, self.part) {
                 inside.lo = lo;
             }
