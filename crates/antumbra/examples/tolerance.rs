@@ -77,7 +77,8 @@ fn draw(path: &str, curves: &[(&str, Vec<(f64, f64)>)]) -> Result<(), Box<dyn Er
         .x_label_formatter(&|x| format!("{x:.0}"))
         .y_label_formatter(&|y| format!("{y:.0e}"))
         .label_style(("sans-serif", 15))
-        .light_line_style(BLACK.mix(0.06))
+        .max_light_lines(0)
+        .bold_line_style(BLACK.mix(0.12))
         .draw()?;
     for ((title, curve), color) in curves.iter().zip(COLORS) {
         let points: Vec<(f64, f64)> = curve.iter().map(|(tolerance, cost)| (1.0 / tolerance, *cost)).collect();
