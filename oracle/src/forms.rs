@@ -227,7 +227,11 @@ fn value<const N: usize>(operator: Operator, g: &mut Generator, count: &mut Coun
 }
 
 /// `f(P + t D) = f(P) + t g` where P, t and D are exact floats: t in [0, 1] from symbol 0.
-fn slope<P: Apex<Affine<N>> + std::fmt::Debug, const N: usize>(operator: Operator, g: &mut Generator, count: &mut Count) {
+fn slope<P: Apex<Affine<N>> + std::fmt::Debug, const N: usize>(
+    operator: Operator,
+    g: &mut Generator,
+    count: &mut Count,
+) {
     let s: [f64; N] = std::array::from_fn(|_| symbol(g));
     let t = Affine::linear(0.5, std::array::from_fn(|i| if i == 0 { 0.5 } else { 0.0 }), 0.0);
     let tau = 0.5 * s[0] + 0.5;
