@@ -221,14 +221,14 @@ Examples:
 
 A folder's frame is read as it is (options that say what to draw do not apply); everything else is rendered first.";
 
-/// Check the claims of a finished frame again, ray by ray, in high precision.
+/// Check the claims of a finished frame again, ray by ray, in high precision (about a minute for 1000 pixels).
 ///
 /// Random pixels, random rays and random points of the lights, against the formula as it was written, on numbers of 192
 /// bits. A violation is printed and makes the command fail; so no violation is what one expects to see.
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!("{AUDIT_EXAMPLES}\n\n{EXIT_CODES}"))]
 pub(crate) struct AuditArgs {
-    /// A folder that `render --planes` wrote (named with a `/` at its end), or a preset, a scene file, a formula, or `-`
+    /// A folder that `render --planes` wrote, or a preset, a scene file, a formula, or `-`
     #[arg(value_name = "FOLDER-OR-SCENE")]
     pub(crate) frame: String,
 
@@ -266,8 +266,8 @@ fn exhibits() -> String {
 
 /// Reproduce a table or a figure of the paper behind the method `paper`.
 ///
-/// Tables go to standard output, pictures to DIR (default: the current folder). With `-o` the text is also written
-/// there, as Markdown.
+/// Tables go to standard output, pictures to DIR (default: the current folder). Where there is a folder for files, the text
+/// is written there too, as Markdown.
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!("{}{PAPER_EXAMPLES}\n\n{EXIT_CODES}", exhibits()))]
 pub(crate) struct PaperArgs {

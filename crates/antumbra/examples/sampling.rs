@@ -5,6 +5,10 @@
 //! wide, with the floor), and for PIXELS random hits, half of them in penumbrae, 65 x 65 points of the light are asked one by
 //! one by an independent sampler of rays (`tests/truth`). Prints the contradictions, which must be none, and what is
 //! undecided or open; exits with 1 if there is a contradiction.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "the checker is independent on purpose: it uses other functions than the library"
+)]
 #[path = "../tests/truth/double.rs"]
 mod double;
 #[allow(dead_code, reason = "shared with tests that use more of it")]

@@ -10,7 +10,7 @@ use std::sync::Arc;
 use std::time::Duration;
 
 /// Tolerances as powers of two: 1/64 to 1/4096.
-const LEVELS: [i32; 4] = [6, 8, 10, 12];
+const LEVELS: [u32; 4] = [6, 8, 10, 12];
 /// A hue for each scene, of about equal lightness.
 const COLORS: [RGBColor; 4] =
     [RGBColor(204, 102, 51), RGBColor(51, 119, 170), RGBColor(85, 136, 51), RGBColor(153, 85, 153)];
@@ -29,13 +29,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         let mut cells = Vec::new();
         let mut curve = Vec::new();
         for level in LEVELS {
-            let stats = shadows(&scene, size, 0.5_f64.powi(level))?;
+            let stats = shadows(&scene, size, tolerance(level))?;
             let open = match stats.brackets_open {
                 0 => String::new(),
                 n => format!(" ({n} open, {:.4})", stats.bracket_width_max),
             };
             cells.push(format!("{}{open}", stats.shadow_evaluations));
-            curve.push((0.5_f64.powi(level), stats.shadow_evaluations as f64));
+            curve.push((tolerance(level), stats.shadow_evaluations as f64));
         }
         println!("| {} | {} | {:.2} |", row.title, cells.join(" | "), exponent(&curve));
         curves.push((row.title, curve));
@@ -44,6 +44,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         draw(&path, &curves)?;
     }
     Ok(())
+}
+
+/// `2^-level`.
+fn tolerance(level: u32) -> f64 {
+    1.0 / f64::from(1_u32 << level)
 }
 
 fn shadows(scene: &Arc<Scene>, size: usize, tolerance: f64) -> Result<Stats, Box<dyn Error>> {
@@ -56,7 +61,7 @@ fn shadows(scene: &Arc<Scene>, size: usize, tolerance: f64) -> Result<Stats, Box
 /// e of "cost grows as tolerance^-e", between the ends.
 fn exponent(curve: &[(f64, f64)]) -> f64 {
     let (first, last) = (curve[0], curve[curve.len() - 1]);
-    (last.1 / first.1).ln() / (first.0 / last.0).ln()
+    core_math::log(last.1 / first.1) / core_math::log(first.0 / last.0)
 }
 
 fn draw(path: &str, curves: &[(&str, Vec<(f64, f64)>)]) -> Result<(), Box<dyn Error>> {
@@ -64,7 +69,7 @@ fn draw(path: &str, curves: &[(&str, Vec<(f64, f64)>)]) -> Result<(), Box<dyn Er
     let (least, most) = (costs().fold(f64::INFINITY, f64::min), costs().fold(0.0, f64::max));
     let root = SVGBackend::new(path, (720, 480)).into_drawing_area();
     root.fill(&WHITE)?;
-    let ends = [LEVELS[0], LEVELS[LEVELS.len() - 1]].map(|l| 2.0_f64.powi(l));
+    let ends = [LEVELS[0], LEVELS[LEVELS.len() - 1]].map(|l| 1.0 / tolerance(l));
     let mut chart = ChartBuilder::on(&root)
         .margin(16)
         .x_label_area_size(44)

@@ -38,22 +38,25 @@ fn honest_frames_stand() {
 /// An error planted in every pixel of a kind.
 type Corruption = fn(&mut Frame, usize);
 
+/// The pixels to plant it in.
+type Wanted = fn(&Frame, usize) -> bool;
+
 #[test]
 fn planted_errors_are_found() {
     let scene = Arc::new(preset("links").unwrap().unwrap());
     let honest = frame_of(&scene);
-    let lit = |f: &Frame, i: usize| f.verdict[i] == 1 && f.lights[1].visible_lo[i] == 1.0;
-    let dark = |f: &Frame, i: usize| f.verdict[i] == 1 && f.lights[0].visible_hi[i] == 0.0;
-    let partly = |f: &Frame, i: usize| f.verdict[i] == 1 && (0.2..0.8).contains(&f.lights[0].visible_lo[i]);
-    let hit = |f: &Frame, i: usize| f.verdict[i] == 1;
-    let errors: [(Kind, &dyn Fn(&Frame, usize) -> bool, Corruption); 7] = [
-        (Kind::Empty, &hit, |f, i| f.verdict[i] = 0),
-        (Kind::Hit, &hit, |f, i| (f.t_lo[i], f.t_hi[i]) = (f.t_lo[i] - 2e-9, f.t_lo[i] - 1e-9)),
-        (Kind::Before, &hit, |f, i| (f.t_lo[i], f.t_hi[i]) = (f.t_lo[i] + 0.01, f.t_hi[i] + 0.02)),
-        (Kind::CentreFree, &hit, |f, i| f.verdict[i] = Frame::PARTLY),
-        (Kind::Lit, &dark, |f, i| (f.lights[0].visible_lo[i], f.lights[0].visible_hi[i]) = (1.0, 1.0)),
-        (Kind::Dark, &lit, |f, i| (f.lights[1].visible_lo[i], f.lights[1].visible_hi[i]) = (0.0, 0.0)),
-        (Kind::Bracket, &partly, |f, i| {
+    let lit: Wanted = |f, i| f.verdict[i] == 1 && f.lights[1].visible_lo[i] == 1.0;
+    let dark: Wanted = |f, i| f.verdict[i] == 1 && f.lights[0].visible_hi[i] == 0.0;
+    let partly: Wanted = |f, i| f.verdict[i] == 1 && (0.2..0.8).contains(&f.lights[0].visible_lo[i]);
+    let hit: Wanted = |f, i| f.verdict[i] == 1;
+    let errors: [(Kind, Wanted, Corruption); 7] = [
+        (Kind::Empty, hit, |f, i| f.verdict[i] = 0),
+        (Kind::Hit, hit, |f, i| (f.t_lo[i], f.t_hi[i]) = (f.t_lo[i] - 2e-9, f.t_lo[i] - 1e-9)),
+        (Kind::Before, hit, |f, i| (f.t_lo[i], f.t_hi[i]) = (f.t_lo[i] + 0.01, f.t_hi[i] + 0.02)),
+        (Kind::CentreFree, hit, |f, i| f.verdict[i] = Frame::PARTLY),
+        (Kind::Lit, dark, |f, i| (f.lights[0].visible_lo[i], f.lights[0].visible_hi[i]) = (1.0, 1.0)),
+        (Kind::Dark, lit, |f, i| (f.lights[1].visible_lo[i], f.lights[1].visible_hi[i]) = (0.0, 0.0)),
+        (Kind::Bracket, partly, |f, i| {
             let light = &mut f.lights[0];
             (light.visible_lo[i], light.visible_hi[i]) = (light.visible_lo[i] - 0.15, light.visible_hi[i] - 0.15);
         }),

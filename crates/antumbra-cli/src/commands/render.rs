@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use antumbra::{
     image::npy_bytes,
-    render::{Renderer, Stats},
+    render::{Method, Renderer, Stats},
 };
 use anyhow::Result;
 use indicatif::HumanCount;
@@ -89,10 +89,31 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
 fn summary(options: &RenderOptions, stats: &Stats) -> String {
     let spec = &options.spec;
     let share = 100.0 * stats.hits as f64 / (spec.width * spec.height) as f64;
+    let undecided = stats.hits.saturating_sub(stats.proved_hit + stats.proved_partly);
+    let proofs = match spec.method {
+        Method::Certified => format!(", {} of them undecided", HumanCount(undecided)),
+        Method::Paper(_) => String::new(),
+    };
+    let per_light = if stats.lights > 1 { format!(" (of {} lights)", stats.lights) } else { String::new() };
+    let open = match stats.brackets_open {
+        0 => String::new(),
+        n => format!(
+            "\n{} brackets are wider than the tolerance (up to {:.3}): allow more work with --rectangles",
+            HumanCount(n),
+            stats.bracket_width_max
+        ),
+    };
+    let hint = if stats.hits == 0 {
+        "\nnothing to see: no pixel meets a surface"
+    } else if undecided == stats.hits && spec.method == Method::Certified {
+        "\nno hit is proved: `--overlay verdict` shows why"
+    } else {
+        ""
+    };
     let planes = options.planes.as_deref().map(|p| format!(" and {}/*", p.display())).unwrap_or_default();
     format!(
-        "{} hits ({share:.2} %): {} lit, {} partly, {} dark; {} shadow beams, {} evaluations; {:.2} s ({:.2} primary, {:.2} shadow)\n\
-         wrote {}{planes}: {}x{}, {}, threads: {}",
+        "{} hits ({share:.2} %){proofs}: {} lit, {} partly, {} dark{per_light}; {} shadow beams, {} evaluations; {:.2} s ({:.2} primary, {:.2} shadow)\n\
+         wrote {}{planes}: {}x{}, {}, threads: {}{open}{hint}",
         HumanCount(stats.hits),
         HumanCount(stats.lit),
         HumanCount(stats.partly),

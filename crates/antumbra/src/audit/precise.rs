@@ -51,8 +51,8 @@ impl Big {
             };
         };
         // The value is 0.mantissa times 2^exponent, the most significant word last.
-        let top = mantissa.last().copied().unwrap_or(0) as f64 * 0.5_f64.powi(64);
-        let size = top * 2.0_f64.powi(exponent.clamp(-1000, 1000));
+        let top = mantissa.last().copied().unwrap_or(0) as f64 * power_of_two(-64);
+        let size = top * power_of_two(exponent.clamp(-1000, 1000));
         if sign.is_negative() { -size } else { size }
     }
 
@@ -147,6 +147,11 @@ impl Precise {
         }
         s.small.pop().unwrap_or(f64::NAN)
     }
+}
+
+/// `2^n` for `-1022 <= n <= 1023`.
+fn power_of_two(n: i32) -> f64 {
+    f64::from_bits(((1023 + n) as u64) << 52)
 }
 
 fn nan() -> Big {

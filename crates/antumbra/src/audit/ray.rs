@@ -193,7 +193,7 @@ impl Judge {
         let (mut lo, mut hi) = (Big::from(lo), Big::from(hi));
         let first = self.formula.value(&ray.at(&lo), s).rounded();
         let last = self.formula.value(&ray.at(&hi), s).rounded();
-        if !(first * last < 0.0) {
+        if first * last >= 0.0 || first.is_nan() || last.is_nan() {
             return None;
         }
         let half = Big::from(0.5);

@@ -371,7 +371,7 @@ impl CameraEntry {
         if eye == target {
             return Err(value_error("camera", "eye and target are the same point"));
         }
-        if !(angle >= 0.01 && angle <= 170.0) {
+        if !(0.01..=170.0).contains(&angle) {
             return Err(value_error("camera.angle", format!("must be from 0.01 to 170 degrees, not {angle}")));
         }
         Ok(View { eye: Vec3(eye), target: Vec3(target), fov_deg: angle })

@@ -129,19 +129,22 @@ fn hull_of_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace) -> Optio
 /// light of a tenth of the picture's width (paper, section 4) hangs above, to the left.
 pub(super) fn scene(name: String, title: String, objects: Vec<Object>) -> Scene {
     let bounds = objects.iter().map(|o| o.clip().bounds()).reduce(Box3::hull).unwrap_or(Box3::cube(1.0));
+    let whole = objects.iter().all(|o| o.region() != o.clip());
     let (centre, half) = (bounds.mid(), bounds.half_extent());
     let radius = half.0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-    let eye = centre + Vec3::new(3.0, -4.0, 3.0) * radius;
+    // No small integers: many a plane, x = z for one, would be seen from its edge.
+    let eye = centre + Vec3::new(2.6, -4.3, 2.9) * radius;
     let light = Light::white(Rect::horizontal(centre + Vec3::new(-1.0, -2.0, 6.0) * radius, 0.25 * radius));
-    let view = View { eye, target: centre, fov_deg: angle_over(&bounds, eye, centre) };
+    let view = View { eye, target: centre, fov_deg: angle_over(&bounds, eye, centre, whole) };
     let floor_height = bounds[2].lo() - 0.05 * radius;
     Scene { name, title, floor_height, floor_shown: false, view, lights: vec![light], objects }
 }
 
-/// The full angle, in degrees, that shows the ellipsoid inside the box and a margin. (Corners of the box are mostly empty.)
-fn angle_over(clip: &Box3, eye: Vec3, centre: Vec3) -> f64 {
+/// The full angle, in degrees, that shows a box and what is in it: all of it where it cuts surfaces off; where they are whole, the
+/// ellipsoid inside and a margin (corners are mostly empty then).
+fn angle_over(clip: &Box3, eye: Vec3, centre: Vec3, whole: bool) -> f64 {
     let distance = (eye - centre).length();
-    let reach = clip.half_extent().length() * 0.78;
+    let reach = clip.half_extent().length() * if whole { 0.78 } else { 1.0 };
     2.0 * core_math::asin((reach / distance).min(0.9)).to_degrees()
 }
 
