@@ -66,12 +66,15 @@ fn hit(scene: &Scene, judges: &[Judge], random: &mut fastrand::Rng) -> Option<Hi
     Some(Hit { point: std::array::from_fn(|k| eye[k] + direction[k] * t), own, before })
 }
 
+/// Rectangles for one hit: some of these scenes are not for the second-order method.
+const RECTANGLES: u32 = 300;
+
 fn ask(objects: &[Object], hit: &Hit, light: &Rect, width: f64, penumbra: Penumbra) -> (Bracket, Vec<Claim>, Cost) {
     let surfaces: Vec<Surface<'_>> =
         objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() }).collect();
     let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
     scratch.record_claims();
-    let tolerance = Tolerance { width, rectangles: 3000, penumbra };
+    let tolerance = Tolerance { width, rectangles: RECTANGLES, penumbra };
     let (receiver, pieces) = (hit.receiver(), whole_beam(&surfaces));
     let bracket = visible(&surfaces, &receiver, light, &pieces, tolerance, &mut scratch, &mut work, &mut cost);
     (bracket, scratch.take_claims(), cost)
@@ -125,7 +128,8 @@ fn check(name: &str, scene: &Scene, floor: bool, scale: f64, width: f64, hits: u
         let Some(hit) = hit(scene, &judges, &mut random) else { continue };
         tally.hits += 1;
         let (second, claims, cost) = ask(&objects, &hit, &light, width, Penumbra::Second);
-        if claims.is_empty() {
+        // Most hits are lit or dark as a whole, by one claim.
+        if !claims.iter().any(|c| matches!(c.says, Says::Curves(_))) {
             continue;
         }
         found += 1;

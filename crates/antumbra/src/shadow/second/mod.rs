@@ -19,7 +19,7 @@ use super::rectangle::Query;
 use super::visible::{Bracket, Penumbra, Tolerance};
 use crate::eval::Workspace;
 use crate::geom::strips::{Band, Curve};
-use crate::geom::{Fan, Sheet};
+use crate::geom::{Clip, Fan, Sheet};
 use crate::trace::{Cost, Piece, Surface, certainly_continuous};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
@@ -151,7 +151,10 @@ pub(super) fn fraction(
 ) -> Fraction {
     let Scratch { cell: scratch, slabs, heap, parts, claims, .. } = s;
     let most = match tolerance.penumbra {
-        Penumbra::Auto => cost.evaluations + policy::fair(tolerance.width),
+        Penumbra::Auto => {
+            let cut = query.surfaces.iter().any(|at| at.region == at.clip && at.clip != Clip::Everywhere);
+            cost.evaluations + policy::fair(tolerance.width, cut)
+        }
         _ => u64::MAX,
     };
     scratch.forget();
