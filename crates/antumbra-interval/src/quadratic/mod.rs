@@ -98,7 +98,7 @@ impl Quadratic {
 
     /// An interval that contains every value of the function.
     ///
-    /// Mixed terms by their magnitude; `l x + q x^2` over `[-1, 1]` by [`parabola_low`]. At most 20 roundings on numbers of
+    /// Mixed terms by their magnitude; `l x + q x^2` over `[-1, 1]` by `parabola_low`. At most 20 roundings on numbers of
     /// sum `size`.
     #[must_use]
     #[inline]
