@@ -166,7 +166,7 @@ fn sampling_confirms_formulas_with_poles_steps_and_domains() {
         "atan2(y, x) - z = 0",
         "mod(x, 1) - 0.5 + z/5 = 0",
     ] {
-        let seen = check(Arc::new(Scene::from_formula(text).unwrap()), false, 40);
+        let seen = check(Arc::new(Scene::from_formula(text).unwrap()), false, 60);
         all.iter_mut().zip(seen).for_each(|(a, s)| *a += s);
     }
     assert!(all[usize::from(EMPTY)] > 10 && all[usize::from(HIT)] > 60, "{:?}", &all[..8]);
