@@ -1,5 +1,5 @@
 //! Brackets of the visible fraction against plain sampling, as much as you like:
-//! `cargo run --release -p antumbra --example sampling -- [PIXELS] [SIZE] [SCENE...]`.
+//! `cargo run --release -p antumbra --example sampling -- [PIXELS] [SIZE] [narrow|fine|wide|all] [SCENE...]`.
 //!
 //! For each scene the picture is rendered by proof (narrow light at a tolerance of 1/255 and of 1/1024; light four times as
 //! wide, with the floor), and for PIXELS random hits, half of them in penumbrae, 65 x 65 points of the light are asked one by
@@ -34,6 +34,7 @@ const SLACK: f64 = 4.0 / (GRID * GRID) as f64;
 
 /// One way to light a scene.
 struct Setup {
+    word: &'static str,
     name: &'static str,
     tolerance: f64,
     light_scale: f64,
@@ -41,18 +42,19 @@ struct Setup {
 }
 
 const SETUPS: [Setup; 3] = [
-    Setup { name: "narrow, 1/255", tolerance: 1.0 / 255.0, light_scale: 1.0, floor: false },
-    Setup { name: "narrow, 1/1024", tolerance: 1.0 / 1024.0, light_scale: 1.0, floor: false },
-    Setup { name: "wide + floor, 1/255", tolerance: 1.0 / 255.0, light_scale: 4.0, floor: true },
+    Setup { word: "narrow", name: "narrow, 1/255", tolerance: 1.0 / 255.0, light_scale: 1.0, floor: false },
+    Setup { word: "fine", name: "narrow, 1/1024", tolerance: 1.0 / 1024.0, light_scale: 1.0, floor: false },
+    Setup { word: "wide", name: "wide + floor, 1/255", tolerance: 1.0 / 255.0, light_scale: 4.0, floor: true },
 ];
 
 fn main() -> ExitCode {
     let mut arguments = std::env::args().skip(1);
     let mut number = |default: usize| arguments.next().map_or(Ok(default), |text| text.parse());
     let (Ok(pixels), Ok(size)) = (number(2000), number(512)) else {
-        eprintln!("usage: sampling [PIXELS] [SIZE] [SCENE...], the first two whole numbers");
+        eprintln!("usage: sampling [PIXELS] [SIZE] [narrow|fine|wide|all] [SCENE...], the first two whole numbers");
         return ExitCode::from(2);
     };
+    let word = arguments.next().unwrap_or_else(|| "all".to_owned());
     let mut names: Vec<String> = arguments.collect();
     if names.is_empty() {
         names = ["orthocircle", "chubs", "kusner", "mcmullen"].map(str::to_owned).to_vec();
@@ -66,7 +68,7 @@ fn main() -> ExitCode {
             return ExitCode::from(2);
         };
         let scene = Arc::new(scene);
-        for setup in &SETUPS {
+        for setup in SETUPS.iter().filter(|setup| word == "all" || word == setup.word) {
             wrong += check(&scene, setup, pixels, size);
         }
     }

@@ -107,7 +107,7 @@ impl Judge {
             if v * next < 0.0 {
                 let mut section = [places[k], places[k + 1]];
                 let mut ends = [v, next];
-                for _ in 0..60 {
+                for _ in 0..32 {
                     let middle = 0.5 * (section[0] + section[1]);
                     let value = self.value(p, d, middle, scale, &mut slots);
                     let upper = usize::from(value * ends[0] < 0.0);
@@ -120,7 +120,7 @@ impl Judge {
                 }
                 unclear |= shrunk || ends.iter().any(|e| e.is_nan());
             }
-            if k > 0 && values[k - 1].abs() >= v.abs() && v.abs() <= next.abs() {
+            if k > 0 && values[k - 1].abs() >= v.abs() && v.abs() <= next.abs() && may_dip([values[k - 1], v, next]) {
                 let (mut a, mut b) = (places[k - 1], places[k + 1]);
                 for _ in 0..44 {
                     let (c, e) = (b - GOLDEN * (b - a), a + GOLDEN * (b - a));
@@ -149,6 +149,14 @@ impl Judge {
         let v = self.exact(p, d, t.into());
         if v.abs() > self.noise { v.signum() } else { 0.0 }
     }
+}
+
+/// Whether the parabola through three values of one sign, the middle one the least, comes near to zero.
+fn may_dip(values: [f64; 3]) -> bool {
+    let [a, b, c] = values.map(f64::abs);
+    let (bend, slope) = (a - 2.0 * b + c, 0.5 * (c - a));
+    // Equal values have no bend. Twice as deep as the parabola goes is allowed for.
+    bend <= 0.0 || b - slope * slope / bend <= 0.25 * b
 }
 
 #[derive(Default)]
