@@ -1,5 +1,5 @@
 //! What is known of the picture so far: the frame, its hits, and the statistics.
-use super::pixel::{Hit, Known, Light, Pixel};
+use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
 use super::task::Task;
 use super::{Frame, Method, Stats};
@@ -13,7 +13,7 @@ pub(super) struct Book {
     pub(super) stats: Stats,
     hits: Vec<Option<Hit>>,
     /// Pixels that an edge crosses, with the hits of their grid of rays.
-    edges: BTreeMap<usize, Vec<Option<Hit>>>,
+    edges: BTreeMap<usize, Edge>,
     /// Evaluations that the search for the surface took, per pixel.
     primary_cost: Vec<u32>,
 }
@@ -140,13 +140,20 @@ impl Book {
         let mut colors = Vec::with_capacity(self.edges.len());
         for (&index, edge) in &self.edges {
             let mut sum = [0.0_f32; 3];
-            for sub in edge {
+            for sub in &edge.rays {
                 let lit_as = sub.as_ref().and_then(|hit| self.light_near(task, index, hit));
                 let color = self.color(task, index, sub.as_ref(), lit_as);
                 (0..3).for_each(|c| sum[c] += color[c]);
             }
-            let mut color = sum.map(|s| s / edge.len() as f32);
-            if edge.iter().all(Option::is_none)
+            let mut color = sum.map(|s| s / edge.rays.len() as f32);
+            if let Some(thin) = &edge.thin
+                && !self.is_near(task, index, thin.object)
+                && !edge.rays.iter().flatten().any(|hit| hit.object == thin.object)
+            {
+                let veil = self.color(task, index, Some(thin), None);
+                (0..3).for_each(|c| color[c] += THIN_WEIGHT * (veil[c] - color[c]));
+            }
+            if edge.rays.iter().all(Option::is_none)
                 && let Some(hit) = &self.hits[index]
                 && !self.at_an_edge(task, index)
             {
@@ -159,6 +166,12 @@ impl Book {
         for (index, color) in colors {
             self.frame.rgb[index] = color;
         }
+    }
+
+    /// Whether that surface is proved in the pixel or next to it.
+    fn is_near(&self, task: &Task, index: usize, object: usize) -> bool {
+        neighbours(task, index)
+            .any(|at| self.hits[at].is_some_and(|hit| hit.object == object && hit.receiver.is_some()))
     }
 
     /// Whether a surface is proved in the pixel or next to it: what is undecided there is how far its edge reaches.

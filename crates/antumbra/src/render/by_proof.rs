@@ -1,5 +1,5 @@
 //! The passes of the certified method: blocks of pixels that are divided until everything is proved or counted.
-use super::pixel::{Hit, Known, Light, Pixel};
+use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::task::Task;
 use crate::eval::Workspace;
 use crate::geom::Beam;
@@ -116,14 +116,20 @@ impl Primary<'_> {
         if coverage[1] == 0.0 {
             return Pixel { index, known: Known::Empty, coverage, hit: None, edge: None, cost };
         }
-        if hit.is_some_and(|hit| self.plain((column, row), &hit, open, &mut cost)) {
+        let thin = hit.and_then(|hit| {
+            let before = |p: &&Piece| p.surface != hit.object && p.t.lo() < hit.t.lo();
+            let piece = open.open.iter().find(before)?;
+            let beam = self.task.film.beam(column, row);
+            Some(self.task.hit(piece.surface, &beam, piece.t, None, &mut self.work))
+        });
+        if thin.is_none() && hit.is_some_and(|hit| self.plain((column, row), &hit, open, &mut cost)) {
             return Pixel { index, known, coverage, hit, edge: None, cost };
         }
-        let mut edge = Vec::with_capacity(EDGE_RAYS * EDGE_RAYS);
+        let mut rays = Vec::with_capacity(EDGE_RAYS * EDGE_RAYS);
         for k in 0..EDGE_RAYS * EDGE_RAYS {
             let ray = self.task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS);
             let meeting = self.meet(&ray, open, Effort::COARSE, &mut cost);
-            edge.push(meeting.map(|m| self.hit(&ray, &m)));
+            rays.push(meeting.map(|m| self.hit(&ray, &m)));
             if let (None, Some(Meeting { reason: None, .. })) = (hit, meeting)
                 && let Some(m @ Meeting { reason: None, .. }) = self.meet(&ray, open, Effort::FINE, &mut cost)
             {
@@ -137,7 +143,7 @@ impl Primary<'_> {
             let beam = self.task.film.beam(column, row);
             hit = Some(self.task.hit(piece.surface, &beam, piece.t, None, &mut self.work));
         }
-        Pixel { index, known, coverage, hit, edge: Some(edge), cost }
+        Pixel { index, known, coverage, hit, edge: Some(Edge { rays, thin }), cost }
     }
 
     /// Whether rays near the corners of a pixel meet about the same as its centre ray: then one colour will do.

@@ -47,8 +47,17 @@ pub(super) struct Pixel {
     /// What it shows: where the centre ray hits, else where some other ray does.
     pub(super) hit: Option<Hit>,
     /// Where an edge runs through the pixel: what a grid of rays meets, for smooth edges.
-    pub(super) edge: Option<Vec<Option<Hit>>>,
+    pub(super) edge: Option<Edge>,
     pub(super) cost: Cost,
+}
+
+/// What is seen of a pixel beside its centre.
+#[derive(Clone, Debug)]
+pub(super) struct Edge {
+    /// What a grid of rays meets.
+    pub(super) rays: Vec<Option<Hit>>,
+    /// Another surface in front of what the centre ray meets, which is neither met by that ray nor excluded from the pixel.
+    pub(super) thin: Option<Hit>,
 }
 
 /// What reaches one pixel of one light.
