@@ -1,5 +1,8 @@
 //! Every claim of every cell of the second-order method, on random rays judged by an independent sampler; and its
 //! brackets against those of the first-order method.
+//!
+//! For longer: `ANTUMBRA_CLAIMS=500 cargo test --release --test shadow_claims every_claim -- --nocapture` takes so many penumbra hits per scene
+//! and light, and 2000 rays for each hit, and prints what it checked.
 #![allow(
     clippy::disallowed_methods,
     reason = "the checker is independent on purpose: it uses other functions than the library"
@@ -112,10 +115,27 @@ struct Tally {
     evaluations: [u64; 2],
 }
 
-/// Rays for each claim.
+impl Tally {
+    fn add(&mut self, o: &Self) {
+        self.hits += o.hits;
+        self.penumbrae += o.penumbrae;
+        self.claims += o.claims;
+        self.lit += o.lit;
+        self.dark += o.dark;
+        (0..2).for_each(|k| self.evaluations[k] += o.evaluations[k]);
+    }
+}
+
+/// Rays for each claim; more where `least` asks for so many of each hit.
 const RAYS: usize = 12;
 
+/// Penumbra hits of the long run.
+fn long_run() -> Option<usize> {
+    std::env::var("ANTUMBRA_CLAIMS").ok().map(|text| text.parse().expect("ANTUMBRA_CLAIMS is a number of hits"))
+}
+
 fn check(name: &str, scene: &Scene, floor: bool, scale: f64, width: f64, hits: usize, tally: &mut Tally) {
+    let least = if long_run().is_some() { 2000 } else { 0 };
     let mut objects = scene.objects.clone();
     if floor {
         objects.push(scene.floor().unwrap());
@@ -141,7 +161,7 @@ fn check(name: &str, scene: &Scene, floor: bool, scale: f64, width: f64, hits: u
         tally.evaluations[1] += cost.evaluations;
         for claim in &claims {
             tally.claims += 1;
-            for _ in 0..RAYS {
+            for _ in 0..RAYS.max(least / claims.len()) {
                 let place: [f64; 2] = std::array::from_fn(|_| 2.0 * random.f64() - 1.0);
                 let Some(says) = verdict(&claim.says, place[0], place[1]) else { continue };
                 let at = std::array::from_fn(|k| {
@@ -162,7 +182,10 @@ fn every_claim_holds_on_random_rays() {
     for name in ["orthocircle", "chubs", "kusner", "mcmullen"] {
         let scene = preset(name).unwrap().unwrap();
         for (scale, width, hits) in [(1.0, 1.0 / 255.0, 5), (1.0, 1.0 / 4096.0, 2), (4.0, 1.0 / 255.0, 2)] {
-            check(name, &scene, false, scale, width, hits, &mut tally);
+            let mut of = Tally::default();
+            check(name, &scene, false, scale, width, long_run().unwrap_or(hits), &mut of);
+            println!("{name}, light x{scale}, 1/{:.0}: {of:?}", 1.0 / width);
+            tally.add(&of);
         }
     }
     assert!(tally.penumbrae > 25 && tally.lit > 400 && tally.dark > 200, "{tally:?}");

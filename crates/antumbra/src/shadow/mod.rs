@@ -15,6 +15,7 @@
 //!
 //! [`shaft`] settles whole tiles of hits at once, [`visible`] one hit.
 #![deny(clippy::float_arithmetic)]
+mod ledger;
 mod occluders;
 mod policy;
 mod rectangle;

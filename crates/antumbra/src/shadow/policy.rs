@@ -59,11 +59,6 @@ pub(super) fn quarters(u: Interval, v: Interval) -> [[Interval; 2]; 4] {
     [[a, c], [b, c], [a, d], [b, d]]
 }
 
-/// Share of the unit square `[-1, 1]^2` that a rectangle with dyadic sides covers: exact.
-pub(super) fn share(u: Interval, v: Interval) -> f64 {
-    0.25 * (u.hi() - u.lo()) * (v.hi() - v.lo())
-}
-
 /// Places of the hits of a tile, as symbols in `[-1, 1]`, and the normal equations of a linear fit.
 pub(super) struct Places {
     center: [f64; 2],

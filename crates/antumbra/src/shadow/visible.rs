@@ -1,6 +1,7 @@
 //! The visible fraction of a light from one hit.
+use super::ledger::{Ledger, area};
 use super::occluders::{Receiver, fronts};
-use super::policy::{quarters, share};
+use super::policy::quarters;
 use super::rectangle::{self, Answer, Query};
 use super::second;
 use crate::eval::Workspace;
@@ -8,9 +9,8 @@ use crate::geom::{Fan, Rect};
 use crate::trace::{Cost, Piece, Surface};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
-use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_up};
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
+use antumbra_interval::round::sub_up;
+use std::ops::Range;
 
 /// The visible fraction lies in `[lo, hi]`: proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,8 +28,6 @@ pub struct Bracket {
 impl Bracket {
     /// All of the light.
     pub const LIT: Self = Self { lo: 1.0, hi: 1.0, reason: None, first_free: true };
-    /// None of it.
-    pub const DARK: Self = Self { lo: 0.0, hi: 0.0, reason: None, first_free: false };
 }
 
 /// How penumbrae are resolved. Both methods prove what they say; they differ in cost.
@@ -72,7 +70,7 @@ pub struct Scratch {
     rectangle: rectangle::Scratch,
     second: second::Scratch,
     pieces: Vec<Piece>,
-    heap: BinaryHeap<Node>,
+    ledger: Ledger<Range<usize>>,
 }
 
 impl Scratch {
@@ -84,35 +82,6 @@ impl Scratch {
     /// What it claimed since the last call, cell by cell. Every claim is a theorem; children repeat their parents.
     pub fn take_claims(&mut self) -> Vec<second::Claim> {
         self.second.claims.as_mut().map(std::mem::take).unwrap_or_default()
-    }
-}
-
-/// A rectangle that is partly unknown.
-#[derive(Clone, Debug, PartialEq)]
-struct Node {
-    unknown: f64,
-    part: [Interval; 2],
-    pieces: (usize, usize),
-    /// Bounds of its visible share of the whole light.
-    lit: f64,
-    open: f64,
-}
-
-impl Eq for Node {}
-
-impl PartialOrd for Node {
-    fn partial_cmp(&self, o: &Self) -> Option<Ordering> {
-        Some(self.cmp(o))
-    }
-}
-
-impl Ord for Node {
-    /// By the unknown area; equal ones by place, so that the order is always the same.
-    fn cmp(&self, o: &Self) -> Ordering {
-        self.unknown
-            .total_cmp(&o.unknown)
-            .then_with(|| o.part[0].lo().total_cmp(&self.part[0].lo()))
-            .then_with(|| o.part[1].lo().total_cmp(&self.part[1].lo()))
     }
 }
 
@@ -138,7 +107,7 @@ pub fn visible(
     let whole = Fan::towards(receiver.point, light, unit, unit);
     let fronts = fronts(surfaces, receiver, &whole, work, cost);
     let query = Query { surfaces, receiver, fronts: &fronts, light };
-    let Scratch { rectangle, second, pieces: arena, heap } = s;
+    let Scratch { rectangle, second, pieces: arena, ledger } = s;
     let mut tried = !second::worth(tolerance, second);
     let mut by_second = |pieces: &[Piece], s: &mut second::Scratch, work: &mut Workspace, cost: &mut Cost| {
         let reach = if tried { None } else { second::reach(&query, &whole, pieces, work) }?;
@@ -155,28 +124,20 @@ pub fn visible(
     }
     arena.clear();
     arena.extend_from_slice(pieces);
-    heap.clear();
-    // Bounds of what is settled, and an upper bound of what is not.
-    let (mut lit, mut lit_up, mut unknown) = (0.0, 0.0, 0.0);
+    ledger.clear();
     let mut rectangles = 0;
-    let mut parts = vec![([unit, unit], 0, arena.len())];
+    let mut parts = vec![([unit; 2], 0..arena.len())];
     loop {
-        for (part, from, to) in parts.drain(..) {
+        for (part, pieces) in parts.drain(..) {
             rectangles += 1;
             let begin = arena.len();
-            let area = share(part[0], part[1]);
-            match query.look(part, from..to, arena, rectangle, work, cost) {
-                Answer::Dark => {}
-                Answer::Lit => (lit, lit_up) = (add_down(lit, area), add_up(lit_up, area)),
-                Answer::Open { lit, open } => {
-                    let (lit, open) = (mul_down(area, lit), mul_up(area, open));
-                    let node = Node { unknown: sub_up(open, lit), part, pieces: (begin, arena.len()), lit, open };
-                    unknown = add_up(unknown, node.unknown);
-                    heap.push(node);
-                }
+            match query.look(part, pieces, arena, rectangle, work, cost) {
+                Answer::Dark => ledger.shaded(),
+                Answer::Lit => ledger.lit(area(part)),
+                Answer::Open { lit, open } => ledger.open(part, [lit, open], begin..arena.len()),
             }
         }
-        if unknown <= tolerance.width || rectangles >= tolerance.rectangles {
+        if ledger.unknown() <= tolerance.width || rectangles >= tolerance.rectangles {
             break;
         }
         if rectangles == 1 {
@@ -189,16 +150,14 @@ pub fn visible(
                 }
             }
         }
-        let Some(node) = heap.pop() else { break };
-        // Rounded up, so the sum may creep upwards, by far less than a tolerance.
-        unknown = if heap.is_empty() { 0.0 } else { sub_up(unknown, node.unknown) };
-        parts.extend(quarters(node.part[0], node.part[1]).map(|part| (part, node.pieces.0, node.pieces.1)));
+        let Some(node) = ledger.next() else { break };
+        parts.extend(quarters(node.part[0], node.part[1]).map(|part| (part, node.rest.clone())));
     }
-    // Both brackets hold.
-    let lo = heap.iter().fold(lit, |sum, node| add_down(sum, node.lit)).clamp(other[0], other[1]);
-    let hi = heap.iter().fold(lit_up, |sum, node| add_up(sum, node.open)).clamp(other[0], other[1]);
+    // Both brackets hold, so they meet.
+    let [lo, hi] = ledger.bounds();
+    let (lo, hi) = (lo.max(other[0]), hi.min(other[1]));
     let reason = (sub_up(hi, lo) > tolerance.width).then_some(Reason::Budget);
-    Bracket { lo, hi, reason, first_free: rectangles == 1 && lit == 1.0 }
+    Bracket { lo, hi, reason, first_free: rectangles == 1 && lo == 1.0 }
 }
 
 /// The open pieces when nothing is known: each surface, all the way to the light.

@@ -15,27 +15,26 @@ mod cell;
 mod policy;
 mod slab;
 
+use super::ledger::{Ledger, Node, area};
 use super::rectangle::Query;
 use super::visible::{Bracket, Penumbra, Tolerance};
 use crate::eval::Workspace;
-use crate::geom::strips::{Band, Curve};
+use crate::geom::strips::{Areas, Band, Curve};
 use crate::geom::{Clip, Fan, Sheet};
 use crate::trace::{Cost, Piece, Surface, certainly_continuous};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
-use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
+use antumbra_interval::round::sub_up;
 use cell::{Answer, look};
 use slab::{Cell, Slab, State};
-use std::cmp::Ordering;
-use std::collections::BinaryHeap;
 
 /// Scratch memory of one thread.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     cell: cell::Scratch,
     slabs: Vec<Slab>,
-    heap: BinaryHeap<Node>,
-    parts: Vec<Part>,
+    ledger: Ledger<Rest>,
+    parts: Vec<Job>,
     trust: policy::Trust,
     /// Everything that is claimed, if somebody wants to know.
     pub(super) claims: Option<Vec<Claim>>,
@@ -62,36 +61,14 @@ pub enum Says {
     Curves(Vec<Curve>),
 }
 
-type Part = ([Interval; 2], (usize, usize));
+/// A part of the light and its slabs.
+type Job = ([Interval; 2], (usize, usize));
 
-/// A cell that is partly unknown.
-#[derive(Clone, Debug, PartialEq)]
-struct Node {
-    unknown: f64,
-    part: [Interval; 2],
+/// What is remembered of a cell that is partly unknown.
+#[derive(Clone, Debug)]
+struct Rest {
     slabs: (usize, usize),
-    /// Bounds of its visible share of the whole light.
-    lit: f64,
-    open: f64,
     band: Option<Band>,
-}
-
-impl Eq for Node {}
-
-impl PartialOrd for Node {
-    fn partial_cmp(&self, o: &Self) -> Option<Ordering> {
-        Some(self.cmp(o))
-    }
-}
-
-impl Ord for Node {
-    /// By the unknown area; equal ones by place, so that the order is always the same.
-    fn cmp(&self, o: &Self) -> Ordering {
-        self.unknown
-            .total_cmp(&o.unknown)
-            .then_with(|| o.part[0].lo().total_cmp(&self.part[0].lo()))
-            .then_with(|| o.part[1].lo().total_cmp(&self.part[1].lo()))
-    }
 }
 
 /// Bounds of a visible fraction, and the cells that it took.
@@ -149,7 +126,7 @@ pub(super) fn fraction(
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Fraction {
-    let Scratch { cell: scratch, slabs, heap, parts, claims, .. } = s;
+    let Scratch { cell: scratch, slabs, ledger, parts, claims, .. } = s;
     let most = match tolerance.penumbra {
         Penumbra::Auto => {
             let cut = query.surfaces.iter().any(|at| at.region == at.clip && at.clip != Clip::Everywhere);
@@ -158,21 +135,18 @@ pub(super) fn fraction(
         _ => u64::MAX,
     };
     scratch.forget();
-    heap.clear();
+    ledger.clear();
     slabs.clear();
     slabs.extend(whole_slabs(pieces));
-    let unit = Interval::new(-1.0, 1.0);
     parts.clear();
-    parts.push(([unit; 2], (0, slabs.len())));
-    let mut sums = Sums::default();
-    let (mut unknown, mut cells, mut all_lit) = (0.0, 0, true);
+    parts.push(([Interval::new(-1.0, 1.0); 2], (0, slabs.len())));
+    let mut cells = 0;
     loop {
         while let Some((part, (from, to))) = parts.pop() {
             cells += 1;
             let begin = slabs.len();
-            let area = area(part);
             let cell = Cell::new(query, reach, part);
-            let enough = policy::enough(tolerance.width, area[1]);
+            let enough = policy::enough(tolerance.width, area(part)[1]);
             let answer = look(&cell, from..to, enough, slabs, scratch, work, cost);
             if let Some(claims) = claims {
                 let says = match answer {
@@ -183,71 +157,35 @@ pub(super) fn fraction(
                 claims.push(Claim { part, says });
             }
             match answer {
-                Answer::Dark => all_lit = false,
-                Answer::Lit => sums.book(area),
-                Answer::Open(found) => {
-                    let (lit, open) = (mul_down(area[0], found.lit), mul_up(area[1], found.open));
-                    let unknown_here = sub_up(open, lit);
-                    unknown = add_up(unknown, unknown_here);
-                    let slabs = (begin, slabs.len());
-                    heap.push(Node { unknown: unknown_here, part, slabs, lit, open, band: found.band });
+                Answer::Dark => ledger.shaded(),
+                Answer::Lit => ledger.lit(area(part)),
+                Answer::Open(Areas { lit, open, band }) => {
+                    ledger.open(part, [lit, open], Rest { slabs: (begin, slabs.len()), band });
                 }
             }
         }
         if cells >= tolerance.rectangles || cost.evaluations >= most {
             break;
         }
-        if unknown <= tolerance.width {
+        if ledger.unknown() <= tolerance.width {
             // Narrow enough; but lit or dark all over is worth a little more.
-            let [lo, hi] = bounds(&sums, heap);
-            if heap.is_empty() || !policy::perhaps_all_the_same(lo, hi, cells) {
+            let [lo, hi] = ledger.bounds();
+            if ledger.settled() || !policy::perhaps_all_the_same(lo, hi, cells) {
                 break;
             }
         }
-        let Some(node) = heap.pop() else { break };
-        // Rounded up, so the sum may creep upwards, by far less than a tolerance.
-        unknown = if heap.is_empty() { 0.0 } else { sub_up(unknown, node.unknown) };
-        let band = node.band.filter(policy::crop_pays);
+        let Some(node) = ledger.next() else { break };
+        let band = node.rest.band.filter(policy::crop_pays);
         if let Some(band) = band {
-            all_lit = false;
-            crop(&node, &band, &mut sums, parts);
+            crop(&node, &band, ledger, parts);
         } else {
             let shape = policy::Shape::of(query.light, query.receiver.point.mid(), node.part);
             divide(&node, shape.halved(), parts);
         }
     }
-    // Where every part is lit, so is the whole: rounded sums would not say so.
-    let [lo, hi] = if heap.is_empty() && all_lit { [1.0; 2] } else { bounds(&sums, heap) };
+    let [lo, hi] = ledger.bounds();
     s.trust.tell(sub_up(hi, lo) <= tolerance.width);
     Fraction { lo, hi, cells }
-}
-
-/// Bounds of the lit area of settled parts and open cells.
-fn bounds(sums: &Sums, heap: &BinaryHeap<Node>) -> [f64; 2] {
-    let lo = heap.iter().fold(sums.lo, |sum, node| add_down(sum, node.lit));
-    let hi = heap.iter().fold(sums.hi, |sum, node| add_up(sum, node.open));
-    [lo.clamp(0.0, 1.0), hi.clamp(0.0, 1.0)]
-}
-
-/// Bounds of what is certainly lit among the settled parts.
-#[derive(Clone, Copy, Debug, Default)]
-struct Sums {
-    lo: f64,
-    hi: f64,
-}
-
-impl Sums {
-    /// A settled part whose lit area is in the interval.
-    fn book(&mut self, [lo, hi]: [f64; 2]) {
-        (self.lo, self.hi) = (add_down(self.lo, lo), add_up(self.hi, hi));
-    }
-}
-
-/// Bounds of the share of the light that a part covers: a quarter of its area, exactly.
-fn area([u, v]: [Interval; 2]) -> [f64; 2] {
-    let (du, dv) = (sub_down(u.hi(), u.lo()), sub_down(v.hi(), v.lo()));
-    let (eu, ev) = (sub_up(u.hi(), u.lo()), sub_up(v.hi(), v.lo()));
-    [mul_down(0.25, mul_down(du, dv)), mul_up(0.25, mul_up(eu, ev))]
 }
 
 /// Pieces of one surface that touch as slabs on all rays.
@@ -277,11 +215,11 @@ fn halves(t: Interval) -> [Interval; 2] {
 }
 
 /// Two or four equal parts.
-fn divide(node: &Node, halved: [bool; 2], parts: &mut Vec<Part>) {
+fn divide(node: &Node<Rest>, halved: [bool; 2], parts: &mut Vec<Job>) {
     let [u, v] = node.part;
     let cuts = |t: Interval, cut: bool| if cut { halves(t).to_vec() } else { vec![t] };
     for v in cuts(v, halved[1]) {
-        parts.extend(cuts(u, halved[0]).into_iter().map(|u| ([u, v], node.slabs)));
+        parts.extend(cuts(u, halved[0]).into_iter().map(|u| ([u, v], node.rest.slabs)));
     }
 }
 
@@ -290,7 +228,8 @@ fn divide(node: &Node, halved: [bool; 2], parts: &mut Vec<Part>) {
 ///
 /// The place `x` of `[-1, 1]` is `(lo + hi)/2 + (hi - lo)/2 x` of the range across: enclosed, cut to it. A part from the lower end
 /// of one enclosure to the upper end of the other holds all undecided places; both rests are settled all over.
-fn crop(node: &Node, band: &Band, sums: &mut Sums, parts: &mut Vec<Part>) {
+fn crop(node: &Node<Rest>, band: &Band, ledger: &mut Ledger<Rest>, parts: &mut Vec<Job>) {
+    ledger.shaded();
     let (across, along) = (node.part[band.across], halves(node.part[1 - band.across]));
     let point = Interval::point;
     let half = point(0.5);
@@ -309,8 +248,8 @@ fn crop(node: &Node, band: &Band, sums: &mut Sums, parts: &mut Vec<Part>) {
             area(oriented(lit, along))
         };
         if from < to && begin < end {
-            sums.book(beyond(if band.lit_above { end } else { begin }));
-            parts.push((oriented(Interval::new(begin, end), along), node.slabs));
+            ledger.lit(beyond(if band.lit_above { end } else { begin }));
+            parts.push((oriented(Interval::new(begin, end), along), node.rest.slabs));
             continue;
         }
         // Nothing is undecided. Certainly lit beyond one edge, certainly not before the other.
@@ -327,7 +266,7 @@ fn crop(node: &Node, band: &Band, sums: &mut Sums, parts: &mut Vec<Part>) {
         let least = if band.lit_above { edge(lit, true, across.hi()) } else { edge(lit, false, across.lo()) };
         let most = if band.lit_above { edge(hidden, false, across.lo()) } else { edge(hidden, true, across.hi()) };
         let ([lo, _], [_, hi]) = (beyond(least), beyond(most));
-        sums.book([lo, hi]);
+        ledger.lit([lo, hi]);
     }
 }
 

@@ -3,6 +3,7 @@ use super::cell::{self, Answer, look};
 use super::slab::{Cell, Kind, Slab, State};
 use crate::eval::{Gradient, Inclusion, JetPoint, QuadraticPoint, Workspace};
 use crate::geom::{Box3, Clip, Rect, Sheet, Vec3};
+use crate::shadow::ledger::Ledger;
 use crate::shadow::occluders::Front;
 use crate::shadow::rectangle::Query;
 use crate::shadow::{Penumbra, Receiver, Says, Scratch, Tolerance, visible, whole_beam};
@@ -222,17 +223,22 @@ fn cropping_loses_nothing() {
         for across in 0..2 {
             for lit_above in [false, true] {
                 let band = crate::geom::strips::Band { across, lit_above, undecided: [[from, to]; 2] };
-                let node = super::Node { unknown: 1.0, part, slabs: (0, 0), lit: 0.0, open: 1.0, band: Some(band) };
-                let (mut sums, mut parts) = (super::Sums::default(), Vec::new());
-                super::crop(&node, &band, &mut sums, &mut parts);
+                let mut ledger = Ledger::default();
+                ledger.open(part, [0.0, 1.0], super::Rest { slabs: (0, 0), band: Some(band) });
+                let (node, mut parts) = (ledger.next().unwrap(), Vec::new());
+                super::crop(&node, &band, &mut ledger, &mut parts);
+                let [sums_lo, sums_hi] = ledger.bounds();
                 let going_on: f64 = parts.iter().map(|(p, _)| super::area(*p)[0]).sum();
                 let share = if from < to { 0.5 * (to - from) } else { 0.0 };
                 assert!((going_on / whole[0] - share).abs() < 1e-9, "{band:?}");
                 let clamped = |x: f64| x.clamp(-1.0, 1.0);
                 let lit = if lit_above { 0.5 * (1.0 - clamped(to)) } else { 0.5 * (1.0 + clamped(from)) };
                 let not_hidden = if lit_above { 0.5 * (1.0 - clamped(from)) } else { 0.5 * (1.0 + clamped(to)) };
-                assert!(sums.lo <= lit * whole[1] + 1e-15 && sums.lo >= lit * whole[0] - 1e-9, "{band:?}: {sums:?}");
-                assert!(sums.hi + going_on >= not_hidden * whole[0] - 1e-15, "{band:?}: {sums:?}");
+                assert!(
+                    sums_lo <= lit * whole[1] + 1e-15 && sums_lo >= lit * whole[0] - 1e-9,
+                    "{band:?}: {sums_lo}, {sums_hi}"
+                );
+                assert!(sums_hi + going_on >= not_hidden * whole[0] - 1e-15, "{band:?}: {sums_lo}, {sums_hi}");
             }
         }
     }
