@@ -28,6 +28,7 @@ pub(crate) enum Command {
     Compare(CompareArgs),
     Paper(PaperArgs),
     Audit(AuditArgs),
+    Gallery(GalleryArgs),
     #[command(subcommand)]
     Scene(SceneCommand),
     Info,
@@ -283,6 +284,50 @@ pub(crate) struct PaperArgs {
     pub(crate) spec: SpecArgs,
 
     /// No progress bar
+    #[arg(short, long)]
+    pub(crate) quiet: bool,
+}
+
+const GALLERY_EXAMPLES: &str = "\
+Examples:
+  antumbra gallery                                  # all of it, into the folder gallery
+  antumbra gallery barth-sextic boy -o two --size 512
+  antumbra gallery --list
+  antumbra render boy --size 1024                   # a surface of the gallery is a scene like others";
+
+/// Draw the surfaces of the gallery, with a page that shows them.
+///
+/// Writes NAME.png for each as soon as it is done, then index.html (everything in one file), sheet.png (all pictures in one),
+/// and the counts of proved and undecided pixels as gallery.md and gallery.json. A surface that fails does not stop the
+/// others.
+#[derive(Debug, clap::Args)]
+#[command(after_help = format!("{GALLERY_EXAMPLES}\n\n{EXIT_CODES}"))]
+#[command(mut_arg("size", |arg| arg.default_value("256")))]
+pub(crate) struct GalleryArgs {
+    /// Surfaces [default: all]
+    #[arg(value_name = "NAME")]
+    pub(crate) names: Vec<String>,
+
+    /// Print names and titles, draw nothing
+    #[arg(long)]
+    pub(crate) list: bool,
+
+    /// Folder for the files; made if its parent exists
+    #[arg(short, long, value_name = "DIR", default_value = "gallery")]
+    pub(crate) output: PathBuf,
+
+    /// Pictures in a row of sheet.png
+    #[arg(long, value_name = "N", default_value = "8", value_parser = values::columns, allow_negative_numbers = true)]
+    pub(crate) columns: usize,
+
+    #[command(flatten)]
+    pub(crate) spec: SpecArgs,
+
+    /// Give up on a surface after so many seconds, and go on with the next
+    #[arg(long, value_name = "SECONDS", value_parser = values::budget, allow_negative_numbers = true)]
+    pub(crate) budget: Option<Duration>,
+
+    /// No progress bar and no summary
     #[arg(short, long)]
     pub(crate) quiet: bool,
 }

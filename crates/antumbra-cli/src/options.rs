@@ -14,12 +14,12 @@ use antumbra::{
     image::Depth,
     render::{Method, Overlay, RenderSpec, RunSpec},
     report::Exhibit,
-    scene::{self, PRESETS, Scene, SceneFile},
+    scene::{self, GALLERY, GalleryEntry, Scene, SceneFile},
 };
 use anyhow::{Result, anyhow};
 
 use crate::{
-    args::{AuditArgs, CompareArgs, PaperArgs, RenderArgs, SpecArgs},
+    args::{AuditArgs, CompareArgs, GalleryArgs, PaperArgs, RenderArgs, SpecArgs},
     failure::Usage,
     values,
 };
@@ -186,7 +186,7 @@ impl AuditOptions {
         let (spec, run) = specs(args.spec, Method::Certified);
         let folder = Path::new(&args.frame);
         // No formula is the name of a folder, but for very odd folders; a preset may be.
-        let audited = if args.frame.ends_with('/') || (scene::preset(&args.frame).is_none() && folder.is_dir()) {
+        let audited = if args.frame.ends_with('/') || (!scene::names().any(|name| name == args.frame) && folder.is_dir()) {
             Audited::Folder(folder.to_owned())
         } else {
             let scene = find_scene(&args.frame)?;
@@ -200,6 +200,51 @@ impl AuditOptions {
             seed: spec.seed,
             run,
             json,
+            budget: args.budget,
+            quiet: args.quiet,
+        })
+    }
+}
+
+/// Options of `gallery`.
+#[derive(Debug)]
+pub(crate) struct GalleryOptions {
+    /// Only print what there is.
+    pub(crate) list: bool,
+    /// At least one, none of them twice.
+    pub(crate) entries: Vec<&'static GalleryEntry>,
+    pub(crate) spec: RenderSpec,
+    pub(crate) run: RunSpec,
+    pub(crate) folder: PathBuf,
+    /// Pictures in a row of the sheet.
+    pub(crate) columns: usize,
+    /// Time after which to give up on a surface.
+    pub(crate) budget: Option<Duration>,
+    pub(crate) quiet: bool,
+}
+
+impl GalleryOptions {
+    /// # Errors
+    /// [`Usage`] where there is no surface of a name.
+    pub(crate) fn new(args: GalleryArgs) -> Result<Self> {
+        let names: Vec<&str> = GALLERY.iter().map(|e| e.name).collect();
+        if let Some(unknown) = args.names.iter().find(|name| !names.contains(&name.as_str())) {
+            let advice = match values::nearest(unknown, &names) {
+                Some(name) => format!("did you mean `{name}`?"),
+                None => "`antumbra gallery --list` prints the names".to_owned(),
+            };
+            return Err(Usage(format!("the gallery has no surface named `{unknown}`; {advice}")).into());
+        }
+        let wanted = |e: &&GalleryEntry| args.names.is_empty() || args.names.iter().any(|name| name == e.name);
+        let entries = GALLERY.iter().filter(wanted).collect();
+        let (spec, run) = specs(args.spec, Method::Certified);
+        Ok(Self {
+            list: args.list,
+            entries,
+            spec,
+            run,
+            folder: args.output,
+            columns: args.columns,
             budget: args.budget,
             quiet: args.quiet,
         })
@@ -248,7 +293,7 @@ fn format_of(path: &Path, depth: Depth) -> Result<Format> {
     }
 }
 
-/// A preset if there is one of that name, else a formula; what is neither but looks like a name is a misspelt preset.
+/// A preset or a surface of the gallery if there is one of that name, else a formula; what is neither but looks like a name is a misspelt preset.
 pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
     if text == "-" {
         let mut formula = String::new();
@@ -264,8 +309,8 @@ pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
     if text.ends_with(".toml") {
         return from_file(Path::new(text));
     }
-    if let Some(scene) = scene::preset(text) {
-        let scene = Arc::new(scene.map_err(|e| Usage(explain(&e, text)))?);
+    if let Some(scene) = scene::named(text) {
+        let scene = Arc::new(scene.map_err(|e| Usage(e.to_string()))?);
         return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene });
     }
     from_formula(text)
@@ -310,10 +355,10 @@ fn looks_like_a_name(text: &str) -> bool {
 }
 
 fn no_preset(text: &str) -> Usage {
-    let names: Vec<&str> = PRESETS.iter().map(|p| p.name).collect();
+    let names: Vec<&str> = scene::names().collect();
     let advice = match values::nearest(text, &names) {
         Some(name) => format!("did you mean `{name}`?"),
-        None => format!("the presets are {}; a formula in x, y, z will do too", names.join(", ")),
+        None => format!("the presets and the gallery are {}; a formula in x, y, z will do too", names.join(", ")),
     };
     Usage(format!("no preset named `{text}`; {advice}"))
 }
@@ -339,7 +384,7 @@ mod tests {
         assert_eq!(find_scene("xyz").unwrap().name, "xyz");
         let message = |text: &str| find_scene(text).unwrap_err().to_string();
         assert_eq!(message("orthocirle"), "no preset named `orthocirle`; did you mean `orthocircle`?");
-        assert!(message("teapot").contains("the presets are"));
+        assert!(message("teapot").contains("the presets and the gallery are"));
         assert!(!message("x^2 + $").contains("no preset"));
     }
 }

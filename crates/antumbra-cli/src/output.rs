@@ -87,7 +87,7 @@ impl Sink {
     }
 }
 
-/// Gives all files their names; an interrupt comes before the first or after the last.
+/// Gives all files their names; an interrupt comes before the first or after the last. Other unfinished files stay so.
 ///
 /// # Errors
 /// Where a file cannot be renamed; those before it are in place.
@@ -95,10 +95,10 @@ pub(crate) fn finish(sinks: Vec<Sink>) -> Result<()> {
     let mut unfinished = unfinished();
     for sink in sinks {
         if let Place::Pending { hidden, destination, .. } = sink.place {
+            unfinished.retain(|path| *path != *hidden);
             hidden.persist(destination).map_err(|e| cannot_write(&sink.path, &e.error))?;
         }
     }
-    unfinished.clear();
     Ok(())
 }
 

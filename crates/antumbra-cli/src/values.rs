@@ -51,6 +51,11 @@ fn whole(text: &str, lo: usize, hi: usize) -> Result<usize, String> {
     }
 }
 
+/// Columns of a sheet of pictures.
+pub(crate) fn columns(text: &str) -> Result<usize, String> {
+    whole(text, 1, 100)
+}
+
 /// Threads, 1 or more.
 pub(crate) fn threads(text: &str) -> Result<usize, String> {
     whole(text, 1, 1024).map_err(|e| format!("{e}, or leave it out to use every processor"))

@@ -20,6 +20,7 @@ fn scene_of(texts: &[&str], clip: Box3, eye: Vec3) -> Scene {
     Scene {
         name: "attack".to_owned(),
         title: "Attack".to_owned(),
+        about: None,
         objects: texts.iter().map(|text| Object::parse(text, Clip::Box(clip)).unwrap()).collect(),
         floor_height: -4.0,
         floor_shown: false,

@@ -2,7 +2,7 @@
 
 use antumbra::{
     render::{Method, RenderSpec, RunSpec},
-    scene::PRESETS,
+    scene::{GALLERY, PRESETS},
 };
 use anyhow::Result;
 
@@ -13,12 +13,13 @@ pub(super) fn run() -> Result<()> {
     let methods: Vec<String> = Method::ALL.iter().map(|(_, name, about)| format!("  {name:<15} {about}")).collect();
     let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {:<15} {}", p.name, p.title)).collect();
     print(&format!(
-        "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:\n{}\nmethods (default: {}):\n{}\n",
+        "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:\n{}\ngallery: {} surfaces (`antumbra gallery --list`)\nmethods (default: {}):\n{}\n",
         env!("CARGO_PKG_VERSION"),
         std::env::consts::ARCH,
         processor_features(),
         thread_count(&RunSpec::default()),
         presets.join("\n"),
+        GALLERY.len(),
         RenderSpec::default().method.name(),
         methods.join("\n"),
     ))

@@ -2,6 +2,7 @@
 
 mod audit;
 mod compare;
+mod gallery;
 mod info;
 mod paper;
 mod record;
@@ -19,7 +20,7 @@ use serde::Serialize;
 
 use crate::{
     args::{Args, Command},
-    options::{AuditOptions, CompareOptions, Format, JsonTarget, PaperOptions, RenderOptions},
+    options::{AuditOptions, CompareOptions, Format, GalleryOptions, JsonTarget, PaperOptions, RenderOptions},
     output::{self, Sink},
     progress::Progress,
 };
@@ -34,6 +35,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Command::Compare(args) => compare::run(&CompareOptions::new(args)?),
         Command::Paper(args) => paper::run(&PaperOptions::new(args)),
         Command::Audit(args) => audit::run(&AuditOptions::new(args)?),
+        Command::Gallery(args) => gallery::run(&GalleryOptions::new(args)?),
         Command::Scene(command) => scene::run(&command),
         Command::Info => info::run(),
     }

@@ -50,7 +50,7 @@ pub(super) fn run(options: &PaperOptions) -> Result<()> {
 }
 
 /// The report as text that reads well as it is and as Markdown.
-fn markdown(report: &Report) -> String {
+pub(super) fn markdown(report: &Report) -> String {
     let mut text = format!("# {}\n", report.title);
     for table in &report.tables {
         text += &format!("\n{}\n\n{}\n", table.caption, layout(table));

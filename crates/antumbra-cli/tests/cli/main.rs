@@ -4,5 +4,6 @@ mod audit;
 mod bad_input;
 mod bench;
 mod commands;
+mod gallery;
 mod interrupt;
 mod scene;

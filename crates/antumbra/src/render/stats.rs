@@ -76,6 +76,12 @@ pub struct Stats {
 }
 
 impl Stats {
+    /// Pixels of the certified method that are neither proved empty nor proved to show a surface, whatever the reason.
+    #[must_use]
+    pub fn undecided(&self) -> u64 {
+        self.undecided_resolution + self.undecided_touching + self.undecided_domain + self.undecided_budget
+    }
+
     /// With the sums filled in.
     pub(super) fn totalled(&self) -> Self {
         Self {

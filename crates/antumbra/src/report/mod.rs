@@ -13,6 +13,7 @@ mod table1;
 use crate::image::{self, Planes};
 use crate::render::{self, RenderSpec, RunSpec};
 use crate::scene;
+pub use mosaic::Sheet;
 use runs::Runs;
 
 /// A table or a figure.

@@ -19,10 +19,35 @@ impl Tile {
 
     /// As a picture of a report.
     pub(super) fn picture(self, name: impl Into<String>, caption: impl Into<String>) -> Result<Picture, Error> {
+        Ok(Picture { name: name.into(), caption: caption.into(), planes: self.planes()? })
+    }
+
+    fn planes(self) -> Result<Planes, Error> {
         let mut planes = Planes::new();
         let samples = self.rgb.into_iter().flatten().collect::<Vec<f32>>();
         planes.add(Plane::with_channels(COLOR_PLANE, self.height, self.width, 3, samples)?)?;
-        Ok(Picture { name: name.into(), caption: caption.into(), planes })
+        Ok(planes)
+    }
+}
+
+/// A contact sheet: frames of one size, in the order in which they come.
+#[derive(Clone, Debug, Default)]
+pub struct Sheet {
+    tiles: Vec<Tile>,
+}
+
+impl Sheet {
+    /// Puts a frame behind the others; its colours are kept, the rest is not. All frames have the size of the first.
+    pub fn add(&mut self, frame: &Frame) {
+        self.tiles.push(Tile::of(frame));
+    }
+
+    /// The sheet as planes: rows of `columns` frames.
+    ///
+    /// # Errors
+    /// Where the planes are too large.
+    pub fn planes(&self, columns: usize) -> Result<Planes, Error> {
+        mosaic(columns, &self.tiles).planes()
     }
 }
 

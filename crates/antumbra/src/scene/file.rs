@@ -1,5 +1,5 @@
 //! Scenes as text: TOML files, read with errors that name line and key, and written so that they can be read again.
-use super::{Colors, Light, Object, Scene, View, extent, framing};
+use super::{About, Colors, Light, Object, Scene, View, extent, framing};
 use crate::geom::{Box3, Clip, Rect, Vec3};
 use antumbra_interval::Interval;
 use serde::{Deserialize, Serialize};
@@ -13,6 +13,9 @@ pub struct SceneFile {
     /// Name for people.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub title: Option<String>,
+    /// Who found the surface, when, and why one looks at it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub about: Option<About>,
     /// Numbers that formulas may use by name.
     #[serde(default, skip_serializing_if = "BTreeMap::is_empty")]
     pub parameters: BTreeMap<String, Parameter>,
@@ -228,6 +231,7 @@ impl SceneFile {
         let View { eye, target, fov_deg } = scene.view;
         Self {
             title: Some(scene.title.clone()),
+            about: scene.about.clone(),
             parameters: BTreeMap::new(),
             surface: scene.objects.iter().map(surface).collect(),
             light: Some(scene.lights.iter().map(light).collect()),
@@ -316,6 +320,7 @@ impl SceneFile {
         let objects = self.surface.iter().enumerate().map(object).collect::<Result<Vec<_>, _>>()?;
         let title = self.title.clone().unwrap_or_else(|| name.to_owned());
         let mut scene = framing::scene(name.to_owned(), title, objects);
+        scene.about = self.about.clone();
         if let Some(camera) = self.camera {
             scene.view = camera.view()?;
         }

@@ -1,12 +1,16 @@
-//! What is to be drawn: objects, light, camera, colours; the presets; and a framing for any formula.
+//! What is to be drawn: objects, light, camera, colours; the presets and the gallery; and a framing for any formula.
+mod about;
 mod file;
 mod framing;
+mod gallery;
 mod light;
 mod object;
 mod presets;
 
+pub use about::About;
 pub use file::{CameraEntry, ClipEntry, FileError, FloorEntry, LightEntry, Parameter, Ranged, SceneFile, SurfaceEntry};
 pub use framing::{Extent, extent};
+pub use gallery::{GALLERY, GalleryEntry, named, names};
 pub use light::Light;
 pub use object::{Colors, Error, Object};
 pub use presets::{PRESETS, Preset, preset};
@@ -21,6 +25,8 @@ pub struct Scene {
     pub name: String,
     /// Name for people.
     pub title: String,
+    /// Who found what it shows, where somebody has said so.
+    pub about: Option<About>,
     /// The surfaces, never empty.
     pub objects: Vec<Object>,
     /// Where a floor would be, if one is asked for.

@@ -1,0 +1,13 @@
+//! The gallery: its files are complete, and its formulas are the surfaces that they claim to be.
+#[path = "gallery/field.rs"]
+mod field;
+#[path = "gallery/files.rs"]
+mod files;
+#[path = "gallery/minimal.rs"]
+mod minimal;
+#[path = "gallery/nodes.rs"]
+mod nodes;
+#[path = "gallery/points.rs"]
+mod points;
+#[path = "gallery/topology.rs"]
+mod topology;
