@@ -5,4 +5,5 @@ mod bad_input;
 mod bench;
 mod commands;
 mod interrupt;
+mod resume;
 mod scene;
