@@ -20,5 +20,5 @@ pub use frame::{Frame, LightPlanes};
 pub use overlay::Overlay;
 pub use renderer::Renderer;
 pub use spec::{Error, Method, RenderSpec, RunSpec};
-pub use state::StateError;
+pub use state::{StateError, fingerprint};
 pub use stats::Stats;

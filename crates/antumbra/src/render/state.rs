@@ -94,6 +94,16 @@ impl Header {
     }
 }
 
+/// A name for the picture of that scene by that spec in this program: 64 hexadecimal digits, equal only where the pictures
+/// are.
+///
+/// # Errors
+/// Where the scene has no text, which none is known not to have.
+pub fn fingerprint(scene: &Scene, spec: &RenderSpec) -> Result<String, StateError> {
+    let header = postcard::to_stdvec(&Header::new(scene, spec)?).map_err(io::Error::other)?;
+    Ok(blake3::hash(&header).to_hex().to_string())
+}
+
 /// Version and build.
 fn program() -> String {
     concat!(env!("CARGO_PKG_VERSION"), " (build ", env!("ANTUMBRA_SOURCES"), ")").to_owned()

@@ -1,14 +1,18 @@
 //! What is to be drawn: objects, light, camera, colours; the presets; and a framing for any formula.
+mod animation;
 mod file;
 mod framing;
 mod light;
 mod object;
+mod parameter;
 mod presets;
 
+pub use animation::{Animation, Course, Motion};
 pub use file::{CameraEntry, ClipEntry, FileError, FloorEntry, LightEntry, Parameter, Ranged, SceneFile, SurfaceEntry};
 pub use framing::{Extent, extent};
 pub use light::Light;
 pub use object::{Colors, Error, Object};
+pub use parameter::number;
 pub use presets::{PRESETS, Preset, preset};
 
 use crate::geom::{Box3, Camera, Clip, Vec3};
