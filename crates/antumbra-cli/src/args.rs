@@ -42,6 +42,7 @@ Examples:
   antumbra render -o sphere.png -- '-x^2 - y^2 - z^2 + 1'
   antumbra render mcmullen --planes planes --json - --quiet | jq .hits
   antumbra render - < formula.txt
+  antumbra render chubs --size 4096 --resume       # goes on where an earlier render of it was stopped
   antumbra render rings.toml --size 800x600        # `antumbra scene new rings.toml` writes one to begin with
 
 Planes have row 0 at the top. The shape of verdict, t_lo, t_hi, visible_lo, visible_hi, \
@@ -50,8 +51,8 @@ pixel is empty.";
 
 /// Render a scene or a formula to a picture.
 ///
-/// A picture appears under its name only when it is complete; until then it is a hidden file beside it. Messages go
-/// to standard error, so that standard output holds only what `--json -` asks for.
+/// A picture appears under its name only when it is complete; until then it is a hidden file beside it. Ctrl-C keeps what
+/// is done: as NAME.png.state, for --resume, and as the picture NAME.unfinished.png. Messages go to standard error, so that standard output holds only what `--json -` asks for.
 #[derive(Debug, clap::Args)]
 #[command(after_help = format!("{RENDER_EXAMPLES}\n\n{EXIT_CODES}"))]
 pub(crate) struct RenderArgs {
@@ -75,9 +76,17 @@ pub(crate) struct RenderArgs {
     #[command(flatten)]
     pub(crate) spec: SpecArgs,
 
-    /// Give up after so many seconds of rendering, with an error and no picture
+    /// Stop after so many seconds of rendering, with an error; what is done is kept for --resume
     #[arg(long, value_name = "SECONDS", value_parser = values::budget, allow_negative_numbers = true)]
     pub(crate) budget: Option<Duration>,
+
+    /// Go on with a render that was stopped, by Ctrl-C, a budget or worse: the picture is the same, bit for bit
+    #[arg(long)]
+    pub(crate) resume: bool,
+
+    /// Save what is done so often, for --resume, as FILE.state beside the picture; it goes away when the picture is there
+    #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = values::budget, allow_negative_numbers = true)]
+    pub(crate) save_every: Duration,
 
     /// Draw what is known instead of the surface, with a legend: verdict, shadow, cost or width (of the brackets)
     #[arg(long, value_name = "KIND", value_parser = values::overlay)]

@@ -10,6 +10,7 @@ mod interrupt;
 mod options;
 mod output;
 mod progress;
+mod unfinished;
 mod values;
 
 use std::process::ExitCode;
@@ -21,7 +22,8 @@ fn main() -> ExitCode {
     match interrupt::install().and_then(|()| commands::run(args)) {
         Ok(()) => ExitCode::SUCCESS,
         Err(error) => {
-            output::remark(&format!("error: {error:#}"));
+            let sort = if error.is::<failure::Interrupted>() { "" } else { "error: " };
+            output::remark(&format!("{sort}{error:#}"));
             failure::code(&error)
         }
     }

@@ -62,8 +62,12 @@ pub(crate) struct RenderOptions {
     pub(crate) overlay: Option<Overlay>,
     pub(crate) planes: Option<PathBuf>,
     pub(crate) json: Option<JsonTarget>,
-    /// Time after which to give up.
+    /// Time after which to stop.
     pub(crate) budget: Option<Duration>,
+    /// Whether to go on with a render that was stopped.
+    pub(crate) resume: bool,
+    /// Time between two saves.
+    pub(crate) save_every: Duration,
     pub(crate) quiet: bool,
 }
 
@@ -116,6 +120,8 @@ impl RenderOptions {
             planes: args.planes,
             json,
             budget: args.budget,
+            resume: args.resume,
+            save_every: args.save_every,
             quiet: args.quiet,
         })
     }

@@ -6,7 +6,7 @@
 
 use std::{
     fs::{self, File, OpenOptions},
-    io::{self, ErrorKind, Write},
+    io::{self, BufWriter, ErrorKind, Write},
     path::{Path, PathBuf},
 };
 
@@ -85,6 +85,22 @@ impl Sink {
         }
         .map_err(|e| cannot_write(&self.path, &e))
     }
+
+    /// Writes the content, once, piece by piece.
+    ///
+    /// # Errors
+    /// Those of the content; where the disk is full or the device refuses.
+    pub(crate) fn write(&mut self, content: impl FnOnce(&mut dyn Write) -> Result<()>) -> Result<()> {
+        let (Place::Direct(file) | Place::Pending { file, .. }) = &mut self.place;
+        let mut out = BufWriter::new(&mut *file);
+        content(&mut out).map_err(|e| anyhow!("cannot write `{}`: {e:#}", self.path.display()))?;
+        out.flush().map_err(|e| cannot_write(&self.path, &e))?;
+        drop(out);
+        match &self.place {
+            Place::Direct(_) => Ok(()),
+            Place::Pending { file, .. } => file.sync_all().map_err(|e| cannot_write(&self.path, &e)),
+        }
+    }
 }
 
 /// Gives all files their names; an interrupt comes before the first or after the last. Other unfinished files stay so.
@@ -95,8 +111,9 @@ pub(crate) fn finish(sinks: Vec<Sink>) -> Result<()> {
     let mut unfinished = unfinished();
     for sink in sinks {
         if let Place::Pending { hidden, destination, .. } = sink.place {
-            unfinished.retain(|path| *path != *hidden);
+            let name = hidden.to_path_buf();
             hidden.persist(destination).map_err(|e| cannot_write(&sink.path, &e.error))?;
+            unfinished.retain(|path| *path != name);
         }
     }
     Ok(())

@@ -58,6 +58,8 @@ pub mod lanes;
 mod power;
 pub mod quadratic;
 pub mod round;
+#[cfg(feature = "serde")]
+mod serial;
 mod trig;
 
 pub use decoration::{Decorated, Decoration};

@@ -9,7 +9,10 @@ mod record;
 mod render;
 mod scene;
 
-use std::time::{Duration, Instant};
+use std::{
+    sync::atomic::Ordering,
+    time::{Duration, Instant},
+};
 
 use antumbra::{
     image::{COLOR_PLANE, Planes, exr_bytes, png_bytes},
@@ -44,27 +47,68 @@ pub(crate) fn run(args: Args) -> Result<()> {
 /// Work between two looks at the progress bar.
 const SLICE: Duration = Duration::from_millis(100);
 
+/// How the work on a picture ended.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum End {
+    /// It is finished.
+    Done,
+    /// The time is over.
+    Budget,
+    /// Somebody asked it to stop.
+    Asked,
+}
+
+/// Renders under a progress bar until the picture is finished, the time is over or the renderer's flag says stop; looks in
+/// at `between` now and then.
+fn pursue(
+    renderer: &mut Renderer,
+    deadline: Option<Instant>,
+    progress: &Progress,
+    between: &mut dyn FnMut(&Renderer),
+) -> End {
+    let flag = renderer.stop_flag();
+    while !renderer.refine(SLICE) {
+        progress.show(renderer);
+        if flag.load(Ordering::Relaxed) {
+            return End::Asked;
+        }
+        if deadline.is_some_and(|deadline| Instant::now() > deadline) {
+            return End::Budget;
+        }
+        between(renderer);
+    }
+    End::Done
+}
+
 /// Renders to the end under a progress bar.
 ///
 /// # Errors
 /// Where that takes longer than the budget.
 fn complete(renderer: &mut Renderer, budget: Option<Duration>, progress: &Progress) -> Result<()> {
-    let begin = Instant::now();
-    while !renderer.refine(SLICE) {
-        progress.set(renderer.progress());
-        if let Some(budget) = budget.filter(|budget| begin.elapsed() > *budget) {
-            let (seconds, share) = (budget.as_secs_f64(), 100.0 * renderer.progress());
-            bail!(
-                "the budget of {seconds} s is spent and about {share:.0} % of the picture is done; nothing was written: \
-                 allow more with --budget, or ask for less with --size, --tolerance or --rectangles"
-            );
+    match pursue(renderer, deadline(budget), progress, &mut |_| {}) {
+        End::Done => Ok(()),
+        End::Budget | End::Asked => {
+            bail!(spent(budget, &format!("about {:.0} % is done; nothing was written", 100.0 * renderer.progress())))
         }
     }
-    Ok(())
+}
+
+/// When a budget that begins now is spent.
+fn deadline(budget: Option<Duration>) -> Option<Instant> {
+    budget.and_then(|budget| Instant::now().checked_add(budget))
+}
+
+/// The message of a spent budget; `left` is what is done and written.
+fn spent(budget: Option<Duration>, left: &str) -> String {
+    let seconds = budget.unwrap_or_default().as_secs_f64();
+    format!(
+        "the budget of {seconds} s is spent; {left}. Allow more with --budget, or ask for less with --size, --tolerance \
+         or --rectangles"
+    )
 }
 
 /// The bytes of a picture file.
-fn picture_bytes(planes: &Planes, format: Format) -> Result<Vec<u8>> {
+pub(crate) fn picture_bytes(planes: &Planes, format: Format) -> Result<Vec<u8>> {
     Ok(match format {
         Format::Png(depth) => png_bytes(planes.require(COLOR_PLANE)?, depth)?,
         Format::Exr => exr_bytes(planes)?,

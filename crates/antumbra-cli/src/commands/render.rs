@@ -1,20 +1,23 @@
 //! `antumbra render`: one scene, one picture.
 
-use std::sync::Arc;
-
 use antumbra::{
     image::npy_bytes,
-    render::{Method, Renderer, Stats},
+    render::{Method, Stats},
 };
-use anyhow::Result;
+use anyhow::{Result, bail};
 use indicatif::HumanCount;
 use serde::Serialize;
 
-use super::{complete, json_sink, json_text, picture_bytes, print_json, record::FrameRecord};
+use super::{
+    End, deadline, json_sink, json_text, picture_bytes, print_json, pursue, record::FrameRecord, spent,
+};
 use crate::{
+    failure::Interrupted,
+    interrupt::Asking,
     options::RenderOptions,
     output::{Folder, Sink, finish, remark},
     progress::Progress,
+    unfinished::Unfinished,
 };
 
 /// The JSON of `render`.
@@ -44,10 +47,17 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let mut picture = Sink::open(&options.picture)?;
     let mut json = json_sink(options.json.as_ref())?;
 
+    let mut unfinished = Unfinished::of(&options.picture, options.format, options.save_every);
+    let mut renderer = unfinished.begin(&options.scene.scene, &options.spec, options.run, options.resume)?;
+    let asking = Asking::first(renderer.stop_flag());
     let progress = Progress::new(options.quiet, options.spec.method.name());
-    let mut renderer = Renderer::new(Arc::clone(&options.scene.scene), options.spec.clone(), options.run)?;
-    complete(&mut renderer, options.budget, &progress)?;
-    drop(progress);
+    let end = pursue(&mut renderer, deadline(options.budget), &progress, &mut |r| unfinished.save_now_and_then(r));
+    drop((progress, asking));
+    match end {
+        End::Done => {}
+        End::Budget => bail!(spent(options.budget, &unfinished.stop(renderer)?)),
+        End::Asked => bail!(Interrupted(unfinished.stop(renderer)?)),
+    }
 
     let planes = renderer.frame().planes()?;
     let overlay = options.overlay.map(|kind| renderer.frame().overlay(kind, options.spec.tolerance)).transpose()?;
@@ -78,6 +88,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         sinks.push(sink);
     }
     finish(sinks)?;
+    unfinished.done();
     print_json(options.json.as_ref(), &record)?;
     if !options.quiet {
         remark(&summary(options, &stats));

@@ -15,8 +15,8 @@ fn ctrl_c_leaves_nothing_behind() {
     let bench = Bench::new();
     let mut child = Command::new(assert_cmd::cargo::cargo_bin("antumbra"))
         .current_dir(bench.path())
-        .args(["render", "mcmullen", "--size", "4096", "--method", "fixed49", "--threads", "1"])
-        .args(["-o", "p.png", "--planes", "planes", "--json", "s.json"])
+        .args(["compare", "mcmullen", "--size", "4096", "--methods", "fixed49", "--threads", "1"])
+        .args(["--json", "s.json"])
         .stdout(Stdio::null())
         .stderr(Stdio::piped())
         .spawn()

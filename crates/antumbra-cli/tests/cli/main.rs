@@ -6,4 +6,5 @@ mod bench;
 mod commands;
 mod gallery;
 mod interrupt;
+mod resume;
 mod scene;

@@ -25,6 +25,7 @@
 //! # Limits
 //! The text may have [`MAX_SOURCE`] bytes and expand to [`MAX_NODES`] operations. Nesting is limited by nothing else: no pass
 //! recurses on it.
+mod definition;
 mod derivative;
 mod error;
 mod exact;
@@ -58,6 +59,7 @@ mod syntax;
 #[allow(clippy::disallowed_methods, reason = "a rough second opinion, compared with a tolerance")]
 pub(crate) mod tests;
 
+pub use definition::definitions;
 pub use derivative::Derivative;
 pub use error::{Error, ErrorKind};
 pub(crate) use facts::{Facts, given as facts_given};

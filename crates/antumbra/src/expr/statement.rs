@@ -69,7 +69,7 @@ fn match_parentheses(source: &str, words: &[Placed]) -> Result<(), Error> {
 
 /// Statements end at `;` and at a newline, except inside parentheses, after a word that wants a right side, and before one
 /// that wants a left side. No statement is empty.
-fn split(words: &[Placed]) -> Vec<Vec<Placed>> {
+pub(super) fn split(words: &[Placed]) -> Vec<Vec<Placed>> {
     let mut statements = vec![];
     let mut current: Vec<Placed> = vec![];
     let mut depth = 0_usize;
@@ -118,14 +118,14 @@ fn one_equals(source: &str, statement: &[Placed], most: usize) -> Result<(), Err
 }
 
 /// `name =` or `name(parameters) =`, the beginning of a definition.
-struct Head {
-    name: Range<usize>,
-    parameters: Option<Vec<Range<usize>>>,
+pub(super) struct Head {
+    pub(super) name: Range<usize>,
+    pub(super) parameters: Option<Vec<Range<usize>>>,
     /// Where the right side begins, in words.
-    body: usize,
+    pub(super) body: usize,
 }
 
-fn head(statement: &[Placed]) -> Option<Head> {
+pub(super) fn head(statement: &[Placed]) -> Option<Head> {
     let word = |i: usize| statement.get(i).map(|(w, _)| *w);
     if word(0) != Some(Word::Name) {
         return None;

@@ -1,10 +1,11 @@
 //! Exact points and vectors of `f64`, and boxes of intervals.
 use antumbra_interval::Interval;
+use serde::{Deserialize, Serialize};
 use std::ops::{Add, Index, Mul, Neg, Sub};
 
 /// A point or a vector whose coordinates are exactly these numbers. Its operations round to nearest: they serve
 /// framing, shading and the choice of a search path, never a proof.
-#[derive(Clone, Copy, Debug, PartialEq, Default)]
+#[derive(Clone, Copy, Debug, PartialEq, Default, Serialize, Deserialize)]
 pub struct Vec3(pub [f64; 3]);
 
 impl Vec3 {
@@ -88,7 +89,7 @@ impl Neg for Vec3 {
 }
 
 /// An axis-aligned box, one interval per coordinate; as an enclosure it holds every point it stands for.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Box3(pub [Interval; 3]);
 
 impl Box3 {

@@ -8,10 +8,12 @@
 //! |---|---|---|
 //! | [`npy_bytes`], [`plane_from_npy`] | `.npy` | one plane, element type kept exactly |
 //! | [`png_bytes`] | `.png` | a linear RGB plane through the sRGB transfer, 8 bit dithered or 16 bit |
+//! | [`Movie`] | `.gif`, `.png` | moving pictures, from frames of 8 bits |
 //! | [`exr_bytes`] | `.exr` | linear `R`, `G`, `B` and every other plane as channels of their own |
 
 mod color;
 mod exr;
+mod movie;
 mod npy;
 mod plane;
 mod png;
@@ -19,9 +21,10 @@ mod png;
 pub use self::{
     color::{code_8, code_16, linear_from_srgb, srgb_from_linear},
     exr::exr_bytes,
+    movie::Movie,
     npy::{npy_bytes, plane_from_npy},
     plane::{Plane, Planes, Rounding, Samples},
-    png::{Depth, png_bytes},
+    png::{Depth, Still, png_bytes, png_bytes_noted},
 };
 
 /// Name and version written into the header of every picture.

@@ -21,14 +21,67 @@ pub enum Depth {
 /// [`Error::NotColor`] unless the plane has three channels of `f32` or `f64`; [`Error::NotANumber`] where one is NaN;
 /// [`Error::Encode`] where the encoder refuses (more than 2^31 - 1 rows or columns).
 pub fn png_bytes(plane: &Plane, depth: Depth) -> Result<Vec<u8>, Error> {
+    png_bytes_noted(plane, depth, None)
+}
+
+/// The same with a note to the program (`tEXt Comment`), which [`Still::read`] finds again.
+///
+/// # Errors
+/// As for [`png_bytes`].
+pub fn png_bytes_noted(plane: &Plane, depth: Depth, note: Option<&str>) -> Result<Vec<u8>, Error> {
     match plane.samples() {
-        Samples::F64(v) if plane.channels() == 3 => encode(plane, depth, v.iter().copied()),
-        Samples::F32(v) if plane.channels() == 3 => encode(plane, depth, v.iter().map(|&x| f64::from(x))),
+        Samples::F64(v) if plane.channels() == 3 => encode(plane, depth, note, v.iter().copied()),
+        Samples::F32(v) if plane.channels() == 3 => encode(plane, depth, note, v.iter().map(|&x| f64::from(x))),
         _ => Err(Error::NotColor(plane.name().to_owned())),
     }
 }
 
-fn encode(plane: &Plane, depth: Depth, light: impl Iterator<Item = f64>) -> Result<Vec<u8>, Error> {
+/// A PNG as it was written by [`png_bytes_noted`], read again.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Still {
+    /// Pixels per row.
+    pub width: usize,
+    /// Rows.
+    pub height: usize,
+    /// Red, green and blue of each pixel, rows from the top; empty where the file has not 8 bits per channel.
+    pub codes: Vec<u8>,
+    /// The note in the file.
+    pub note: Option<String>,
+}
+
+impl Still {
+    /// Reads the bytes of a whole file.
+    ///
+    /// # Errors
+    /// [`Error::Decode`] where they are not an RGB picture.
+    pub fn read(bytes: &[u8]) -> Result<Self, Error> {
+        let refused = |reason: String| Error::Decode { name: "PNG".to_owned(), reason };
+        let mut reader =
+            png::Decoder::new(std::io::Cursor::new(bytes)).read_info().map_err(|e| refused(e.to_string()))?;
+        let size = reader.output_buffer_size().ok_or_else(|| refused("it is too large".to_owned()))?;
+        let mut codes = vec![0; size];
+        reader.next_frame(&mut codes).map_err(|e| refused(e.to_string()))?;
+        let info = reader.info();
+        if info.color_type != png::ColorType::Rgb {
+            return Err(refused("it is not in RGB".to_owned()));
+        }
+        if info.bit_depth != png::BitDepth::Eight {
+            codes.clear();
+        }
+        let note = info.uncompressed_latin1_text.iter().find(|t| t.keyword == NOTE).map(|t| t.text.clone());
+        Ok(Self { width: info.width as usize, height: info.height as usize, codes, note })
+    }
+}
+
+/// Keyword of the note: one of those that the PNG standard names.
+const NOTE: &str = "Comment";
+
+fn encode(
+    plane: &Plane,
+    depth: Depth,
+    note: Option<&str>,
+    light: impl Iterator<Item = f64>,
+) -> Result<Vec<u8>, Error> {
     let columns = plane.columns();
     let place = |i: usize| (i / 3 / columns, i / 3 % columns, i % 3);
     let mut codes = Vec::with_capacity(plane.samples().len() * if depth == Depth::Eight { 1 } else { 2 });
@@ -53,6 +106,9 @@ fn encode(plane: &Plane, depth: Depth, light: impl Iterator<Item = f64>) -> Resu
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
     let write = || {
         encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+        if let Some(note) = note {
+            encoder.add_text_chunk(NOTE.to_owned(), note.to_owned())?;
+        }
         let mut writer = encoder.write_header()?;
         writer.write_image_data(&codes)?;
         writer.finish()
@@ -110,6 +166,18 @@ mod tests {
         assert_eq!(info.gama_chunk.unwrap().into_scaled(), 45455);
         let text = &info.uncompressed_latin1_text;
         assert_eq!((text[0].keyword.as_str(), text[0].text.as_str()), ("Software", SOFTWARE));
+    }
+
+    #[test]
+    fn a_note_is_found_again() {
+        let (_, plane) = ramp();
+        let bytes = png_bytes_noted(&plane, Depth::Eight, Some("a note")).unwrap();
+        let still = Still::read(&bytes).unwrap();
+        assert_eq!((still.width, still.height, still.note.as_deref()), (64, 16, Some("a note")));
+        assert_eq!(still.codes, decode(bytes.clone()).1);
+        let plain = Still::read(&png_bytes(&plane, Depth::Sixteen).unwrap()).unwrap();
+        assert_eq!((plain.note, plain.codes.len()), (None, 0));
+        assert!(matches!(Still::read(&bytes[..bytes.len() / 2]), Err(Error::Decode { .. })));
     }
 
     #[test]

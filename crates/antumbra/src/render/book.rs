@@ -2,12 +2,15 @@
 use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
 use super::task::Task;
-use super::{Frame, Method, Stats};
+use super::{Frame, LightPlanes, Method, Stats};
 use crate::scene::Colors;
 use crate::verdict::{Reason, Verdict};
+use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Frame, hits and statistics. Written by one thread, in the order of the pixels' tiles.
+/// Frame, hits and statistics: all that a state holds of a render. Written by one thread; what is in it when the last tile
+/// is done does not depend on the order of the tiles.
+#[derive(Serialize, Deserialize)]
 pub(super) struct Book {
     pub(super) frame: Frame,
     pub(super) stats: Stats,
@@ -25,6 +28,23 @@ impl Book {
         let stats = Stats { method, width, height, threads, lights, ..Stats::default() };
         let (hits, primary_cost) = (vec![None; width * height], vec![0; width * height]);
         Self { frame, stats, hits, edges: BTreeMap::new(), primary_cost }
+    }
+
+    /// Whether every plane has the size of a picture of that many pixels and lights.
+    pub(super) fn fits(&self, width: usize, height: usize, lights: usize) -> bool {
+        let (frame, n) = (&self.frame, width * height);
+        let planes = [frame.verdict.len(), frame.t_lo.len(), frame.t_hi.len(), frame.normal.len(), frame.rgb.len()];
+        let more = [frame.coverage_lo.len(), frame.coverage_hi.len(), frame.cost.len()];
+        let of_light = |l: &LightPlanes| {
+            let sizes = [l.visible_lo.len(), l.visible_hi.len(), l.facing.len(), l.initial_occluded.len()];
+            sizes == [n; 4]
+        };
+        (frame.width, frame.height, frame.lights.len()) == (width, height, lights)
+            && planes == [n; 5]
+            && more == [n; 3]
+            && frame.lights.iter().all(of_light)
+            && (self.hits.len(), self.primary_cost.len()) == (n, n)
+            && self.edges.keys().all(|index| *index < n)
     }
 
     pub(super) fn hit(&self, index: usize) -> Option<&Hit> {
@@ -133,10 +153,20 @@ impl Book {
         shade::shade(&point, lights, eye, backdrop, task.scene.scale()).map(|c| c as f32)
     }
 
+    /// The colours that depend on neighbouring pixels, when those are known: of what may be a surface, and of edges.
+    pub(super) fn finish_colors(&mut self, task: &Task) {
+        for index in 0..self.hits.len() {
+            if let Some(hit) = self.hits[index].filter(|hit| task.method == Method::Certified && hit.receiver.is_none()) {
+                self.frame.rgb[index] = self.color(task, index, Some(&hit), None);
+            }
+        }
+        self.shade_edges(task);
+    }
+
     /// Smooth edges: the mean colour of the grid of rays of each pixel that an edge crosses. The light of a ray's hit is
     /// that of the nearest hit in the neighbourhood. Where no ray of the grid meets the thing that is known, or not
     /// excluded, to be there, it shows all the same.
-    pub(super) fn shade_edges(&mut self, task: &Task) {
+    fn shade_edges(&mut self, task: &Task) {
         let mut colors = Vec::with_capacity(self.edges.len());
         for (&index, edge) in &self.edges {
             let mut sum = [0.0_f32; 3];

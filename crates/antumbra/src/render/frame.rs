@@ -1,9 +1,10 @@
 //! The picture as data.
 use super::spec::Error;
 use crate::verdict::{Reason, Verdict};
+use serde::{Deserialize, Serialize};
 
 /// Every plane of a picture. Row 0 is at the top; element `row * width + column` belongs to a pixel.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Frame {
     /// Pixels per row.
     pub width: usize,
@@ -34,7 +35,7 @@ pub struct Frame {
 }
 
 /// The planes of one light; elements as in [`Frame`].
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct LightPlanes {
     /// Lower bound of the visible fraction of the light; NaN where the pixel is empty. The paper's methods give one
     /// number for both bounds: 1 - shadow index.

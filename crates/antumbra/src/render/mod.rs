@@ -12,6 +12,7 @@ mod planes;
 mod renderer;
 mod shade;
 mod spec;
+mod state;
 mod stats;
 mod task;
 
@@ -19,4 +20,5 @@ pub use frame::{Frame, LightPlanes};
 pub use overlay::Overlay;
 pub use renderer::Renderer;
 pub use spec::{Error, Method, RenderSpec, RunSpec};
+pub use state::{StateError, fingerprint};
 pub use stats::Stats;

@@ -4,9 +4,10 @@ use crate::shadow::Receiver;
 use crate::trace::Cost;
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
+use serde::{Deserialize, Serialize};
 
 /// A point of a surface that a pixel shows.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Hit {
     /// Enclosure of its parameter.
     pub(super) t: Interval,
@@ -52,7 +53,7 @@ pub(super) struct Pixel {
 }
 
 /// What is seen of a pixel beside its centre.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Serialize, Deserialize)]
 pub(super) struct Edge {
     /// What a grid of rays meets.
     pub(super) rays: Vec<Option<Hit>>,

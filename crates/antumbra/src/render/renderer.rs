@@ -2,30 +2,37 @@
 use super::book::Book;
 use super::by_paper;
 use super::by_proof::{self, BLOCK};
+use super::state::{self, StateError, Stopped};
 use super::task::Task;
 use super::{Error, Frame, Method, RenderSpec, RunSpec, Stats};
 use crate::grid::Grid;
 use crate::scene::Scene;
+use num_integer::Integer;
 use rayon::prelude::*;
+use serde::{Deserialize, Serialize};
+use std::io::{Read, Seek, Write};
 use std::ops::Range;
 use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::{Duration, Instant};
 
 /// Draws one scene. Ask it to [`refine`](Self::refine) until it is done; look at [`frame`](Self::frame) and
 /// [`stats`](Self::stats) whenever you like. The frame is the same, bit for bit, for any number of threads and any
-/// budgets.
+/// budgets, and whether it was drawn at one go or saved and resumed.
 pub struct Renderer {
     task: Task,
-    grid_cells: usize,
+    spec: RenderSpec,
     pool: rayon::ThreadPool,
     grids: Vec<Grid>,
     book: Book,
     stage: Stage,
     next_tile: usize,
+    stop: Arc<AtomicBool>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Stage {
+/// What a renderer is about to do.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) enum Stage {
     Grid,
     Primary,
     Shadow,
@@ -44,14 +51,68 @@ impl Renderer {
         let pool = run.pool()?;
         let task = Task::new(scene, &spec)?;
         let book = Book::new(frame, spec.method, pool.current_num_threads());
-        let stage = Stage::Grid;
-        Ok(Self { task, grid_cells: spec.grid, pool, grids: Vec::new(), book, stage, next_tile: 0 })
+        let (stage, stop) = (Stage::Grid, Arc::default());
+        Ok(Self { task, spec, pool, grids: Vec::new(), book, stage, next_tile: 0, stop })
+    }
+
+    /// Writes everything that is known, so that [`Renderer::resume`] can go on with it: some 50 to 300 bytes for each
+    /// pixel that was looked at, and a checksum. To be called between two calls of [`refine`](Self::refine).
+    ///
+    /// # Errors
+    /// Those of `out`.
+    pub fn save(&self, out: &mut dyn Write) -> Result<(), StateError> {
+        state::write(&self.task.scene, &self.spec, (self.stage, self.next_tile, &self.book), out)
+    }
+
+    /// A renderer that goes on where the saved one was. Frame and statistics will be those of a render at one go, bit for
+    /// bit, but for the threads (those of `run`) and the times (those of both are added up).
+    ///
+    /// The checksum finds accidents, not forgery: proofs in a state are believed.
+    ///
+    /// # Errors
+    /// Those of [`Renderer::new`]; [`StateError`] for a state that is not whole, or is not that of the same scene, spec and
+    /// program.
+    pub fn resume(
+        scene: Arc<Scene>,
+        spec: RenderSpec,
+        run: RunSpec,
+        input: &mut (impl Read + Seek),
+    ) -> Result<Self, StateError> {
+        let mut renderer = Self::new(scene, spec, run)?;
+        let (task, threads) = (&renderer.task, renderer.pool.current_num_threads());
+        let Stopped { stage, tiles, book } = state::read(&task.scene, &renderer.spec, task.lights.len(), input)?;
+        if tiles > renderer.tiles() {
+            return Err(StateError::Damaged);
+        }
+        (renderer.stage, renderer.next_tile, renderer.book) = (stage, tiles, book);
+        renderer.book.stats.threads = threads;
+        if stage != Stage::Grid && matches!(renderer.task.method, Method::Paper(_)) {
+            let begin = Instant::now();
+            renderer.build_grids();
+            renderer.book.stats.grid_seconds += begin.elapsed().as_secs_f64();
+        }
+        Ok(renderer)
+    }
+
+    /// Set it, from any thread, and [`refine`](Self::refine) returns as soon as the tiles under way are done; nothing else
+    /// changes. While it is set, `refine` gets little or nothing done.
+    #[must_use]
+    pub fn stop_flag(&self) -> Arc<AtomicBool> {
+        Arc::clone(&self.stop)
+    }
+
+    /// The frame of an unfinished render with the colours of its edges, as far as they are known: to be looked at. What
+    /// was not looked at is black, light that was not looked for is there.
+    #[must_use]
+    pub fn preview(mut self) -> Frame {
+        self.book.finish_colors(&self.task);
+        self.book.frame
     }
 
     /// Finds the shadows again with another method, for the hits that have been found. What the hits cost stays in the
     /// statistics; everything about shadows begins anew. A grid is built if the method needs one.
     pub fn restart_shadows(&mut self, method: Method) {
-        self.task.method = method;
+        (self.task.method, self.spec.method) = (method, method);
         self.book.restart_shadows(method);
         self.next_tile = 0;
         if self.stage != Stage::Grid {
@@ -77,7 +138,7 @@ impl Renderer {
                 Stage::Shadow => stats.shadow_seconds += seconds,
                 Stage::Edges | Stage::Done => stats.shading_seconds += seconds,
             }
-            if begin.elapsed() >= budget {
+            if begin.elapsed() >= budget || self.stop.load(Ordering::Relaxed) {
                 break;
             }
         }
@@ -87,12 +148,47 @@ impl Renderer {
     /// Share of the work that is done, 0 to 1, roughly: tiles, the shadows counted three times.
     #[must_use]
     pub fn progress(&self) -> f64 {
-        let share = self.next_tile as f64 / self.tiles() as f64;
+        let share = self.share();
         match self.stage {
             Stage::Grid => 0.0,
             Stage::Primary => 0.25 * share,
             Stage::Shadow => 0.25 + 0.75 * share,
             Stage::Edges | Stage::Done => 1.0,
+        }
+    }
+
+    /// Guess of the time that the rest will take at the pace so far, once there is a pace. Tiles are drawn in a scattered
+    /// order, so those that are done are a fair sample of those that are not. How long shadows take in comparison with hits
+    /// is not known before the first ones are found; a usual factor stands in for it.
+    #[must_use]
+    pub fn remaining(&self) -> Option<Duration> {
+        let (share, stats) = (self.share(), &self.book.stats);
+        let all = |spent: f64| if share > 0.0 { spent / share } else { f64::NAN };
+        let seconds = match self.stage {
+            Stage::Grid => f64::NAN,
+            Stage::Primary => all(stats.primary_seconds) * (1.0 + SHADOWS_PER_HITS) - stats.primary_seconds,
+            Stage::Shadow if share > 0.0 => all(stats.shadow_seconds) - stats.shadow_seconds,
+            Stage::Shadow => SHADOWS_PER_HITS * stats.primary_seconds,
+            Stage::Edges | Stage::Done => 0.0,
+        };
+        Duration::try_from_secs_f64(seconds).ok()
+    }
+
+    /// What is being done, and how many pixels of how many are settled: in words for people.
+    #[must_use]
+    pub fn activity(&self) -> (&'static str, u64, u64) {
+        let stats = &self.book.stats;
+        let pixels = (self.task.film.width * self.task.film.height) as u64;
+        let proved = stats.proved_empty + stats.proved_hit + stats.proved_partly;
+        match self.stage {
+            Stage::Grid => ("grid", 0, pixels),
+            Stage::Primary if self.task.method == Method::Certified => ("surface: pixels proved", proved, pixels),
+            Stage::Primary => ("surface: pixels", (pixels as f64 * self.share()) as u64, pixels),
+            Stage::Shadow => {
+                let all = stats.hits * stats.lights as u64;
+                ("light: hits", stats.lit + stats.partly + stats.dark, all)
+            }
+            Stage::Edges | Stage::Done => ("colours", pixels, pixels),
         }
     }
 
@@ -108,32 +204,40 @@ impl Renderer {
         self.book.stats.totalled()
     }
 
+    /// Share of the tiles of this stage that are done.
+    fn share(&self) -> f64 {
+        self.next_tile as f64 / self.tiles() as f64
+    }
+
     fn tiles(&self) -> usize {
         self.task.film.width.div_ceil(BLOCK) * self.task.film.height.div_ceil(BLOCK)
     }
 
-    /// Left column and top row of a tile.
-    fn corner(&self, tile: usize) -> (usize, usize) {
-        let across = self.task.film.width.div_ceil(BLOCK);
+    /// Left column and top row of the tile that comes as number `turn`. The order is scattered over the picture, by the
+    /// golden section: then any number of tiles is a fair sample of all.
+    fn corner(&self, turn: usize) -> (usize, usize) {
+        let (n, across) = (self.tiles(), self.task.film.width.div_ceil(BLOCK));
+        // Some 0.618 n and without a common divisor with n: every tile has its turn. At most 2^22 tiles: no overflow.
+        let stride = (n * 377 / 610..).find(|s| s.gcd(&n) == 1).unwrap_or(1);
+        let tile = turn * stride % n;
         (tile % across * BLOCK, tile / across * BLOCK)
     }
 
-    /// Pixels of a tile as indices of the planes.
-    fn pixels(&self, tile: usize) -> impl Iterator<Item = usize> + use<> {
+    /// Pixels of the tile that comes as number `turn`, as indices of the planes.
+    fn pixels(&self, turn: usize) -> impl Iterator<Item = usize> + use<> {
         let (width, height) = (self.task.film.width, self.task.film.height);
-        let (left, top) = self.corner(tile);
+        let (left, top) = self.corner(turn);
         let (right, bottom) = ((left + BLOCK).min(width), (top + BLOCK).min(height));
         (top..bottom).flat_map(move |row| (left..right).map(move |column| row * width + column))
     }
 
     fn build_grids(&mut self) {
-        let (task, n) = (&self.task, self.grid_cells);
+        let (task, n) = (&self.task, self.spec.grid);
         self.grids = self.pool.install(|| by_paper::grids(task, n));
         self.book.stats.grid_evaluations = self.grids.iter().map(Grid::evaluations).sum();
     }
 
-    /// One tile per thread: so cancelling is quick. Threads wait for the slowest of a batch; batches are cheap tiles or
-    /// few.
+    /// A few tiles per thread: so stopping is quick. Threads wait for the slowest of a batch.
     fn step(&mut self) {
         match self.stage {
             Stage::Grid => {
@@ -144,63 +248,65 @@ impl Renderer {
                 return;
             }
             Stage::Edges | Stage::Done => {
-                self.book.shade_edges(&self.task);
+                self.book.finish_colors(&self.task);
                 self.stage = Stage::Done;
                 return;
             }
             Stage::Primary | Stage::Shadow => {}
         }
         let end = (self.next_tile + 4 * self.pool.current_num_threads()).min(self.tiles());
-        if self.stage == Stage::Primary {
-            self.primary(self.next_tile..end);
-        } else {
-            self.shadows(self.next_tile..end);
-        }
-        self.next_tile = end;
-        if end == self.tiles() {
+        let batch = self.next_tile..end;
+        self.next_tile += if self.stage == Stage::Primary { self.primary(batch) } else { self.shadows(batch) };
+        if self.next_tile == self.tiles() {
             self.next_tile = 0;
             self.stage = if self.stage == Stage::Primary { Stage::Shadow } else { Stage::Edges };
         }
     }
 
-    fn primary(&mut self, batch: Range<usize>) {
+    /// Finds the hits of tiles and tells how many of them are done: all, unless it is asked to stop.
+    fn primary(&mut self, batch: Range<usize>) -> usize {
         let this = &*self;
-        let found: Vec<Vec<_>> = self.pool.install(|| {
-            batch
-                .into_par_iter()
-                .map(|tile| match this.task.method {
-                    Method::Certified => {
-                        let (column, row) = this.corner(tile);
-                        by_proof::primary(&this.task, column, row)
-                    }
-                    Method::Paper(_) => {
-                        let rays = this.task.method.uses_rays();
-                        by_paper::primary(&this.task, &this.grids, this.pixels(tile), rays)
-                    }
-                })
-                .collect()
+        let found = this.each(batch, |turn| match this.task.method {
+            Method::Certified => {
+                let (column, row) = this.corner(turn);
+                by_proof::primary(&this.task, column, row)
+            }
+            Method::Paper(_) => {
+                let rays = this.task.method.uses_rays();
+                by_paper::primary(&this.task, &this.grids, this.pixels(turn), rays)
+            }
         });
+        let done = found.len();
         found.into_iter().flatten().for_each(|pixel| self.book.put_pixel(&self.task, pixel));
+        done
     }
 
-    fn shadows(&mut self, batch: Range<usize>) {
+    /// Finds the shadows of tiles and tells how many of them are done.
+    fn shadows(&mut self, batch: Range<usize>) -> usize {
         let this = &*self;
-        let found: Vec<Vec<_>> = self.pool.install(|| {
-            batch
-                .into_par_iter()
-                .map(|tile| match this.task.method {
-                    Method::Certified => {
-                        let (column, row) = this.corner(tile);
-                        let receiver = |index| this.book.hit(index).and_then(|h| h.receiver.as_ref());
-                        by_proof::shadows(&this.task, column, row, &receiver)
-                    }
-                    Method::Paper(method) => {
-                        let hits = this.pixels(tile).filter_map(|index| Some((index, this.book.hit(index)?.point)));
-                        by_paper::shadows(&this.task, &this.grids, method, hits)
-                    }
-                })
-                .collect()
+        let found = this.each(batch, |turn| match this.task.method {
+            Method::Certified => {
+                let (column, row) = this.corner(turn);
+                let receiver = |index| this.book.hit(index).and_then(|h| h.receiver.as_ref());
+                by_proof::shadows(&this.task, column, row, &receiver)
+            }
+            Method::Paper(method) => {
+                let hits = this.pixels(turn).filter_map(|index| Some((index, this.book.hit(index)?.point)));
+                by_paper::shadows(&this.task, &this.grids, method, hits)
+            }
         });
+        let done = found.len();
         found.into_iter().flatten().for_each(|light| self.book.put_light(&self.task, &light));
+        done
+    }
+
+    /// The work of the tiles of a batch in their order, up to the first that was not begun because of the stop flag.
+    fn each<T: Send>(&self, batch: Range<usize>, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        let begin = |turn| (!self.stop.load(Ordering::Relaxed)).then(|| work(turn));
+        let found: Vec<Option<T>> = self.pool.install(|| batch.into_par_iter().map(begin).collect());
+        found.into_iter().map_while(|tile| tile).collect()
     }
 }
+
+/// How much longer shadows take than hits: the certified method on the presets, between 0.2 and 2.5.
+const SHADOWS_PER_HITS: f64 = 1.5;

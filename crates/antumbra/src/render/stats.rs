@@ -1,8 +1,8 @@
 //! What a render found and what it cost.
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 /// Counters and times; all counters are independent of machine and threads, the times are wall-clock seconds.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub struct Stats {
     /// Method by name.
     pub method: String,

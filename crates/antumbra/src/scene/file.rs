@@ -7,7 +7,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 /// A scene file as it is written. Everything but the surfaces may be left out.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SceneFile {
     /// Name for people.
@@ -65,7 +65,7 @@ impl Parameter {
 }
 
 /// One surface.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct SurfaceEntry {
     /// The formula, in the language of formulas; parameters of the scene may be used.
@@ -248,18 +248,14 @@ impl SceneFile {
         toml::to_string(self).map_err(|e| FileError::Shape { message: e.to_string(), span: None })
     }
 
-    /// Gives a parameter another value.
+    /// Gives a parameter, or else a number that formulas define (`a = 0.05;`), another value.
     ///
     /// # Errors
     /// [`FileError::Value`] where there is none of that name, or the value is outside its range.
     pub fn set(&mut self, name: &str, value: f64) -> Result<(), FileError> {
-        let known: Vec<&str> = self.parameters.keys().map(String::as_str).collect();
-        let missing = match known.as_slice() {
-            [] => "the scene has no parameters".to_owned(),
-            known => format!("there is no such parameter; the scene has {}", known.join(", ")),
-        };
+        finite(&format!("parameters.{name}"), &[value])?;
         match self.parameters.get_mut(name) {
-            None => return Err(value_error(format!("parameters.{name}"), missing)),
+            None => self.redefine(name, value)?,
             Some(Parameter::Value(v) | Parameter::Ranged(Ranged { value: v, .. })) => *v = value,
         }
         self.check_parameters()

@@ -1,18 +1,22 @@
 //! What is to be drawn: objects, light, camera, colours; the presets and the gallery; and a framing for any formula.
 mod about;
+mod animation;
 mod file;
 mod framing;
 mod gallery;
 mod light;
 mod object;
+mod parameter;
 mod presets;
 
 pub use about::About;
+pub use animation::{Animation, Course, Motion};
 pub use file::{CameraEntry, ClipEntry, FileError, FloorEntry, LightEntry, Parameter, Ranged, SceneFile, SurfaceEntry};
 pub use framing::{Extent, extent};
 pub use gallery::{GALLERY, GalleryEntry, named, names};
 pub use light::Light;
 pub use object::{Colors, Error, Object};
+pub use parameter::number;
 pub use presets::{PRESETS, Preset, preset};
 
 use crate::geom::{Box3, Camera, Clip, Vec3};

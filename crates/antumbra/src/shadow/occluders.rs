@@ -3,9 +3,10 @@ use crate::eval::{Inclusion, Workspace};
 use crate::geom::{Box3, Fan, Passage};
 use crate::trace::{Cost, Sign, Surface, certainly_continuous};
 use antumbra_interval::Interval;
+use serde::{Deserialize, Serialize};
 
 /// A proved hit, where shadow beams start.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Receiver {
     /// Contains the true hit, at which the surface's function is 0.
     pub point: Box3,

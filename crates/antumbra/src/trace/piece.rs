@@ -2,6 +2,7 @@
 use crate::eval::{Inclusion, Workspace};
 use crate::geom::{Box3, Clip, Passage};
 use antumbra_interval::Interval;
+use serde::{Deserialize, Serialize};
 
 /// A surface `{f = 0}` inside a region.
 #[derive(Clone, Copy)]
@@ -36,7 +37,7 @@ pub struct Piece {
 }
 
 /// A proved sign.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sign {
     /// Less than 0.
     Negative,
