@@ -49,7 +49,7 @@ pub(super) fn read(file: &str) -> Result<Model, Error> {
             Clip::Ball { center: Vec3::default(), radius }
         }
     };
-    Ok(Model { title: None, surfaces: vec![Part { formula, clip: Some(clip) }] })
+    Ok(Model { title: None, surfaces: vec![Part { formula, clip: Some(clip), open: None }] })
 }
 
 /// The properties of a file: `key=value` or `key:value`, `#` and `!` begin comments, `\` escapes the next character.

@@ -51,7 +51,7 @@ pub(super) fn read(file: &str) -> Result<Model, Error> {
             }
         }
         let clip = bounded.then_some(Clip::Box(Box3(sides)));
-        surfaces.push(Part { formula: written(file, &formula, at)?, clip });
+        surfaces.push(Part { formula: written(file, &formula, at)?, clip, open: None });
     }
     let title = script.list("Name")?.first().map(|name| (*name).to_owned());
     Ok(Model { title, surfaces })

@@ -13,11 +13,12 @@ mod jsurf;
 mod mathmod;
 mod pieces;
 mod plate;
+mod solid;
 mod vm;
 
 use crate::expr::{self, Axis, ErrorKind, Formula, MAX_SOURCE};
 use crate::geom::Clip;
-use crate::scene::{self, Object, Scene, extent};
+use crate::scene::{self, Extent, Object, Scene, extent};
 use std::path::Path;
 
 /// A format of files.
@@ -84,6 +85,8 @@ struct Model {
 struct Part {
     formula: Formula,
     clip: Option<Clip>,
+    /// What to show of a surface that has no end.
+    open: Option<Clip>,
 }
 
 /// The scene in the text of a file. Camera and light are chosen to fit; `name` is the scene's.
@@ -105,7 +108,7 @@ pub fn scene(text: &str, format: Format, name: &str) -> Result<Scene, Error> {
         Format::MathMod => mathmod::read(text)?,
         Format::Formula => Model {
             title: None,
-            surfaces: vec![Part { formula: written(text, &Formula::parse_as_written(text)?, 0)?, clip: None }],
+            surfaces: vec![Part { formula: written(text, &Formula::parse_as_written(text)?, 0)?, clip: None, open: None }],
         },
     };
     let title = model.title.unwrap_or_else(|| name.to_owned());
@@ -116,7 +119,11 @@ pub fn scene(text: &str, format: Format, name: &str) -> Result<Scene, Error> {
     }
     let object = |part: &Part| {
         let object = Object::from_formula(&part.formula, Clip::Everywhere)?;
-        let clip = part.clip.unwrap_or_else(|| Clip::Box(extent(object.surface.as_ref()).clip()));
+        let found = || match (extent(object.surface.as_ref()), part.open) {
+            (Extent::Open(_), Some(open)) => open,
+            (found, _) => Clip::Box(found.clip()),
+        };
+        let clip = part.clip.unwrap_or_else(found);
         Ok::<_, scene::Error>(object.with_clip(clip))
     };
     let objects = model.surfaces.iter().map(object).collect::<Result<Vec<_>, _>>()?;

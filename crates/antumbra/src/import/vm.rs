@@ -1,10 +1,12 @@
 //! The text format of Fidget: `name opcode operands`, one clause a line.
 //!
 //! Only earlier names can be operands, so no file can hold a cycle. A name may be given again; from then on it is the new value.
+use super::solid::without_sheets;
 use super::{Model, Part, written};
 use crate::expr::{
     Axis, Binary, Error, ErrorKind, Formula, Graph, MAX_NODES, NodeId, Unary, cost_of_constant, is_number, number,
 };
+use crate::geom::{Box3, Clip};
 use num_rational::BigRational;
 use num_traits::{Signed, Zero};
 use std::collections::HashMap;
@@ -90,12 +92,21 @@ pub(super) fn read(file: &str) -> Result<Model, Error> {
         let error = Error::new(file, ErrorKind::Empty, 0..0, "there is no operation in this file");
         return Err(error.with_help("a .vm file has one operation a line, such as `r add x2 y2`"));
     };
-    let formula = written(file, &Formula::new(reader.graph, root).compacted(), at)?;
+    let formula = written(file, &without_sheets(&Formula::new(reader.graph, root).compacted()), at)?;
     let title = file.lines().next().and_then(|line| line.strip_prefix('#')).map(|line| line.trim().to_owned());
+    let open = Some(Clip::Box(Box3::cube(1.0 / scale(file).unwrap_or(1.0))));
     Ok(Model {
         title: title.filter(|title| !title.is_empty() && title.len() < 100),
-        surfaces: vec![Part { formula, clip: None }],
+        surfaces: vec![Part { formula, clip: None, open }],
     })
+}
+
+/// The scale of the view that a comment recommends, as in `# Recommended settings: --scale 0.7`: Fidget shows the cube from -1 to
+/// 1, made smaller by it.
+fn scale(file: &str) -> Option<f64> {
+    let mut words = file.lines().take_while(|line| line.starts_with('#')).flat_map(str::split_whitespace);
+    words.find(|word| *word == "--scale")?;
+    words.next()?.parse().ok().filter(|scale| (1e-3..=1e3).contains(scale))
 }
 
 /// The words of a line that begins at `begin`, with their places in the file.
