@@ -6,6 +6,7 @@
 mod args;
 mod commands;
 mod failure;
+mod import;
 mod interrupt;
 mod options;
 mod output;

@@ -21,11 +21,11 @@ use anyhow::{Result, anyhow};
 use crate::{
     args::{AuditArgs, CompareArgs, GalleryArgs, PaperArgs, RenderArgs, SpecArgs},
     failure::Usage,
-    values,
+    import, values,
 };
 
 /// Bytes of formula read from standard input. The heart has its own, smaller limit; this one bounds the memory.
-const MAX_FORMULA: u64 = 64 << 20;
+pub(crate) const MAX_FORMULA: u64 = 64 << 20;
 
 /// A scene and what it is called.
 #[derive(Debug)]
@@ -315,11 +315,15 @@ pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
     if text.ends_with(".toml") {
         return from_file(Path::new(text));
     }
+    if import::is_known(Path::new(text)) {
+        return import::from_file(Path::new(text));
+    }
     if let Some(scene) = scene::named(text) {
         let scene = Arc::new(scene.map_err(|e| Usage(e.to_string()))?);
         return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene });
     }
-    from_formula(text)
+    // A file whose name says nothing is read only where there is no other way to understand the words.
+    from_formula(text).or_else(|e| if Path::new(text).is_file() { import::from_file(Path::new(text)) } else { Err(e) })
 }
 
 /// The scene in a file, named as its file.
@@ -345,7 +349,7 @@ fn from_formula(text: &str) -> Result<NamedScene> {
 }
 
 /// A formula's error with the place in its text, under the word `error: ` that `main` writes.
-fn explain(error: &scene::Error, text: &str) -> String {
+pub(crate) fn explain(error: &scene::Error, text: &str) -> String {
     match error {
         scene::Error::Formula(error) => {
             let message = error.render(text);

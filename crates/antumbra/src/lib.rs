@@ -7,6 +7,7 @@ pub mod expr;
 pub mod geom;
 pub mod grid;
 pub mod image;
+pub mod import;
 pub mod paper;
 pub mod render;
 pub mod report;

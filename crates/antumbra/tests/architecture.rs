@@ -19,6 +19,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("shadow", &["eval", "geom", "trace", "verdict"]),
     ("paper", &["eval", "geom", "grid", "trace", "shadow", "verdict"]),
     ("scene", &["eval", "expr", "geom", "tape"]),
+    ("import", &["eval", "expr", "geom", "scene", "tape"]),
     ("render", &["eval", "expr", "geom", "grid", "image", "paper", "scene", "shadow", "tape", "trace", "verdict"]),
     ("audit", &["eval", "expr", "geom", "render", "scene"]),
     (

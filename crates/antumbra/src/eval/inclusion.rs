@@ -1,10 +1,11 @@
 //! The one public trait: what the renderer needs to know of a function.
-use super::{Gradient, PointJet, run};
+use super::{Gradient, PointJet, Regions, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
 use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Decoration, Interval};
+use std::sync::Arc;
 
 /// Scratch memory of one thread. Start from `default()` and keep it: it only grows.
 #[derive(Debug, Default)]
@@ -57,6 +58,12 @@ pub trait Inclusion: Send + Sync {
     /// About how many operations an evaluation takes: searches that may be long are cut short by it.
     fn operations(&self) -> usize {
         1
+    }
+
+    /// The same function, prepared for many questions inside a box: with shorter forms for parts of it. `None` where that would
+    /// not pay, or nothing is known how.
+    fn in_regions(&self, _bounds: &Box3) -> Option<Arc<dyn Inclusion>> {
+        None
     }
 
     /// Value and derivative along a ray.
@@ -187,6 +194,10 @@ impl Inclusion for Tape {
 
     fn operations(&self) -> usize {
         self.clauses().len()
+    }
+
+    fn in_regions(&self, bounds: &Box3) -> Option<Arc<dyn Inclusion>> {
+        Regions::worth(self, bounds).then(|| Arc::new(Regions::new(self.clone(), bounds)) as Arc<dyn Inclusion>)
     }
 
     #[inline]

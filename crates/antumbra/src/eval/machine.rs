@@ -22,6 +22,17 @@ pub trait Number: Copy {
 /// not matter. Time and memory are linear in the tape; no allocation once `slots` is large enough.
 #[inline]
 pub fn run<N: Number>(tape: &Tape, point: [N; 3], slots: &mut Vec<N>) -> N {
+    watch(tape, point, slots, |_, _, _| {})
+}
+
+/// The same; each clause is shown with its two operands (of no meaning where it has fewer) and its value.
+#[inline]
+pub(super) fn watch<N: Number>(
+    tape: &Tape,
+    point: [N; 3],
+    slots: &mut Vec<N>,
+    mut seen: impl FnMut(Op, [N; 2], N),
+) -> N {
     let constants = tape.constants();
     slots.resize(tape.slots().max(slots.len()), point[0]);
     let slots = slots.as_mut_slice();
@@ -35,6 +46,7 @@ pub fn run<N: Number>(tape: &Tape, point: [N; 3], slots: &mut Vec<N>) -> N {
             Op::Powi(n) => slots[a].powi(n),
             Op::Binary(op) => slots[a].binary(op, slots[b]),
         };
+        seen(clause.op, [slots[a], slots[b]], value);
         slots[clause.out as usize] = value;
     }
     value

@@ -18,9 +18,11 @@ mod inclusion;
 mod jet;
 mod machine;
 mod point;
+mod regions;
 
 pub use gradient::Gradient;
 pub use inclusion::{BeamPoint, Inclusion, JetPoint, QuadraticPoint, ShaftPoint, Workspace, centred_range};
 pub use jet::PointJet;
 pub use machine::{Number, run};
 pub use point::value_at;
+pub use regions::{RegionCount, Regions};

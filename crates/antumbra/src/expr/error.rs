@@ -32,6 +32,8 @@ pub enum ErrorKind {
     Syntax,
     /// Division by a constant that is exactly 0.
     DivisionByZero,
+    /// An operation of another program that has no meaning as a real function, or none that is known here.
+    Unsupported,
     /// An integer exponent outside the range of `i32`.
     Exponent,
 }
@@ -69,6 +71,12 @@ impl Error {
 
     pub(crate) fn with_expected(self, expected: Vec<String>) -> Self {
         Self { expected, ..self }
+    }
+
+    /// The same error at another place, of another text.
+    pub(crate) fn moved(self, source: &str, span: Range<usize>) -> Self {
+        let Self { kind, message, expected, help, .. } = self;
+        Self { expected, help, ..Self::new(source, kind, span, message) }
     }
 
     /// Class of the mistake.

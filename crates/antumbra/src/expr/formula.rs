@@ -55,7 +55,7 @@ impl Formula {
 
     /// A quotient by the exact constant 0: every operator is undefined where an operand is, so the whole formula is nowhere
     /// defined.
-    fn divides_by_zero(&self) -> bool {
+    pub(crate) fn divides_by_zero(&self) -> bool {
         let zero = |id: NodeId| self.graph.exact(id).is_some_and(Zero::is_zero);
         self.graph.nodes().iter().any(|node| match *node {
             Node::Binary(Binary::Div, _, b) => zero(b),
@@ -66,6 +66,13 @@ impl Formula {
 
     pub(crate) fn new(graph: Graph, root: NodeId) -> Self {
         Self { graph, root }
+    }
+
+    /// Whether the formula depends on a coordinate, as written.
+    #[must_use]
+    pub fn uses(&self, axis: Axis) -> bool {
+        let used = self.graph.reachable(self.root);
+        self.graph.nodes().iter().zip(used).any(|(node, used)| used && *node == Node::Axis(axis))
     }
 
     /// The operations; all of them are used by the root unless said otherwise.

@@ -90,6 +90,12 @@ const MAX_DIGITS: usize = 2000;
 /// Largest absolute value of its exponent of ten. The largest `f64` is below 1e309.
 const MAX_EXPONENT: i32 = 400;
 
+/// Whether a text is a decimal literal, without a sign.
+pub(crate) fn is_number(text: &str) -> bool {
+    let mut words = Word::lexer(text);
+    words.next() == Some(Ok(Word::Number)) && words.span() == (0..text.len())
+}
+
 /// The exact value of a decimal literal.
 pub(crate) fn number(source: &str, span: Range<usize>) -> Result<BigRational, Error> {
     let text = &source[span.clone()];

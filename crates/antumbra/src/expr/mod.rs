@@ -62,9 +62,11 @@ pub(crate) mod tests;
 pub use definition::definitions;
 pub use derivative::Derivative;
 pub use error::{Error, ErrorKind};
+pub(crate) use exact::cost as cost_of_constant;
 pub(crate) use facts::{Facts, given as facts_given};
 pub use formula::Formula;
 pub use graph::{Graph, Node, NodeId};
+pub(crate) use lexer::{is_number, number};
 pub use op::{Axis, Binary, Unary};
 pub use surface::{Surface, ZeroStep};
 

@@ -76,6 +76,9 @@ pub struct RenderSpec {
     pub rectangles: u32,
     /// Certified: how penumbrae are resolved.
     pub penumbra: Penumbra,
+    /// Whether long formulas are shortened region by region ([`crate::eval::Regions`]). All claims hold with and without; the
+    /// bits may differ.
+    pub regions: bool,
 }
 
 impl RenderSpec {
@@ -99,6 +102,7 @@ impl Default for RenderSpec {
             tolerance: 1.0 / 255.0,
             rectangles: 4000,
             penumbra: Penumbra::default(),
+            regions: true,
         }
     }
 }

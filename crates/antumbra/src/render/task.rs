@@ -39,6 +39,13 @@ impl Task {
         };
         let has_floor = floor.is_some();
         objects.extend(floor);
+        if spec.regions {
+            for object in &mut objects {
+                if let Some(divided) = object.surface.in_regions(&object.clip().bounds()) {
+                    object.surface = divided;
+                }
+            }
+        }
         let settings = Settings {
             sub_beams: spec.sub_beams,
             offset: spec.offset.unwrap_or(RenderSpec::OFFSET * scene.scale()),

@@ -74,6 +74,12 @@ impl Scene {
         Ok(framing::scene(text.trim().to_owned(), "Formula".to_owned(), vec![object]))
     }
 
+    /// A scene around objects, at least one: camera and light are chosen to fit them.
+    #[must_use]
+    pub fn around(name: String, title: String, objects: Vec<Object>) -> Self {
+        framing::scene(name, title, objects)
+    }
+
     /// Half the largest edge of the box that holds all objects: the scale of the scene.
     #[must_use]
     pub fn scale(&self) -> f64 {

@@ -58,10 +58,20 @@ impl Object {
     /// # Errors
     /// See [`Error`].
     pub fn parse(text: &str, clip: Clip) -> Result<Self, Error> {
-        let formula = Formula::parse(text)?;
-        let tape = Tape::compile(&formula.surface().formula().repeated_squares())?;
-        Ok(Self { text: text.to_owned(), surface: Arc::new(tape), colors: Colors::default(), clip, region: clip }
-            .with_clip(clip))
+        Self::of(text.to_owned(), &Formula::parse(text)?, clip)
+    }
+
+    /// Rewrites and compiles a formula that was built as written. Its text is printed from it and stands for the same function.
+    ///
+    /// # Errors
+    /// [`Error::Tape`]: nobody checks that the text is short enough to be read again.
+    pub fn from_formula(written: &Formula, clip: Clip) -> Result<Self, Error> {
+        Self::of(written.to_string(), &written.simplify(), clip)
+    }
+
+    fn of(text: String, simple: &Formula, clip: Clip) -> Result<Self, Error> {
+        let tape = Tape::compile(&simple.surface().formula().repeated_squares())?;
+        Ok(Self { text, surface: Arc::new(tape), colors: Colors::default(), clip, region: clip }.with_clip(clip))
     }
 
     /// The same surface in another clip. Searches for a proof that the clip cuts nothing away (a second at most).

@@ -1,5 +1,6 @@
 //! Formula -> tape: order of operations, constants, slots.
-use super::{Clause, MAX_CLAUSES, Op, Tape, TapeError, constant};
+use super::slots::{Step, allot};
+use super::{MAX_CLAUSES, Op, Tape, TapeError, constant};
 use crate::expr::{Facts, Formula, Graph, Node, NodeId, facts_given};
 use antumbra_interval::Interval;
 use std::collections::HashMap;
@@ -31,25 +32,15 @@ impl Tape {
         let continuous = facts_given(graph, &used, known)[root.index()].continuous;
         let order = order(graph, root, &folded)?;
 
-        let mut last_use = vec![0_usize; root.index() + 1];
-        for (i, id) in order.iter().enumerate() {
-            last_use[id.index()] = i;
-            for child in operands(graph, *id, &folded) {
-                last_use[child.index()] = i;
-            }
-        }
-
         let mut constants: Vec<Interval> = vec![];
-        let mut place: HashMap<[u64; 2], u32> = HashMap::new();
-        let mut slot_of = vec![0_u32; root.index() + 1];
-        let mut free: Vec<u32> = vec![];
-        let mut slots = 0_u32;
-        let mut clauses = Vec::with_capacity(order.len());
+        let mut place_of_constant: HashMap<[u64; 2], u32> = HashMap::new();
+        let mut place = vec![0_u32; root.index() + 1];
+        let mut steps = Vec::with_capacity(order.len());
         for (i, &id) in order.iter().enumerate() {
             let op = match (folded[id.index()], graph.node(id)) {
                 (Some(value), _) => {
                     let bits = [value.lo().to_bits(), value.hi().to_bits()];
-                    Op::Constant(*place.entry(bits).or_insert_with(|| {
+                    Op::Constant(*place_of_constant.entry(bits).or_insert_with(|| {
                         constants.push(value);
                         constants.len() as u32 - 1
                     }))
@@ -60,22 +51,12 @@ impl Tape {
                 (None, Node::Binary(op, ..)) => Op::Binary(op),
                 (None, Node::Rational(_) | Node::Pi | Node::E) => unreachable!("these constants are always folded"),
             };
-            let children: Vec<NodeId> = operands(graph, id, &folded).collect();
-            let slot = |k: usize| children.get(k).map_or(0, |c| slot_of[c.index()]);
-            let (a, b) = (slot(0), slot(1));
-            // An operand that dies here gives its slot to the result; twice the same operand gives it once.
-            for (k, child) in children.iter().enumerate() {
-                if last_use[child.index()] == i && !children[..k].contains(child) {
-                    free.push(slot_of[child.index()]);
-                }
-            }
-            let out = free.pop().unwrap_or_else(|| {
-                slots += 1;
-                slots - 1
-            });
-            slot_of[id.index()] = out;
-            clauses.push(Clause { op, out, a, b });
+            let mut children = operands(graph, id, &folded).map(|child| place[child.index()]);
+            let (a, b) = (children.next().unwrap_or(0), children.next().unwrap_or(0));
+            place[id.index()] = i as u32;
+            steps.push(Step { op, a, b });
         }
+        let clauses = allot(&steps);
         Self::checked(clauses, constants, continuous)
     }
 }

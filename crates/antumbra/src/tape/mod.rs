@@ -2,11 +2,14 @@
 mod build;
 mod compile;
 mod constant;
+mod shorten;
+mod slots;
 #[cfg(test)]
 #[allow(clippy::disallowed_methods, reason = "a rough second opinion, compared with a tolerance")]
 mod tests;
 
 pub use build::TapeError;
+pub(crate) use shorten::Fate;
 
 use crate::expr::{Axis, Binary, Unary};
 use antumbra_interval::Interval;

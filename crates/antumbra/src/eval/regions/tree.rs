@@ -1,0 +1,212 @@
+//! The tree of regions: which tape answers which question.
+use super::policy;
+use super::valid::Valid;
+use crate::eval::{BeamPoint, Gradient, Inclusion, JetPoint, PointJet, QuadraticPoint, ShaftPoint, Workspace};
+use crate::geom::Box3;
+use crate::tape::Tape;
+use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::quadratic::Quadratic;
+use antumbra_interval::{Decorated, Interval};
+use std::sync::atomic::{AtomicU64, Ordering};
+use std::sync::{Arc, OnceLock};
+
+/// A tape with shorter ones for parts of space: the same function, the same law, and the same answers for any order of questions
+/// and any number of threads, as the tape that answers depends on the question alone.
+///
+/// Cost: a question goes down a tree of at most a dozen levels. A region's tape is made when it is first asked for, which costs
+/// about as much as a few evaluations of its parent's. Memory: the tapes of the regions that were asked for.
+#[derive(Debug)]
+pub struct Regions {
+    whole: Arc<Tape>,
+    /// Its region is everywhere, and its tape the whole one.
+    root: Node,
+}
+
+/// A cell, a cube, and its region, which reaches beyond it so that neighbours overlap.
+#[derive(Debug)]
+struct Node {
+    centre: [f64; 3],
+    half: f64,
+    level: u32,
+    function: Valid,
+    /// Operations in the parent's tape.
+    above: usize,
+    divides: bool,
+    children: [OnceLock<Option<Box<Node>>>; 8],
+    /// Questions that this region's tape answered.
+    asked: AtomicU64,
+}
+
+/// What a tree holds and what it has done.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct RegionCount {
+    /// Regions with a tape.
+    pub regions: u64,
+    /// Operations of the whole tape.
+    pub longest: usize,
+    /// Operations of the shortest tape.
+    pub shortest: usize,
+    /// Operations stored in all of them; a tape that a region shares with its parent counts once.
+    pub stored: u64,
+    /// Questions answered.
+    pub questions: u64,
+    /// Operations executed to answer them.
+    pub operations: u64,
+    /// Operations executed, on decorated intervals, to find the tapes.
+    pub preparation: u64,
+}
+
+impl Regions {
+    /// Whether a tree pays for a tape and a box of interest.
+    #[must_use]
+    pub fn worth(tape: &Tape, bounds: &Box3) -> bool {
+        bounds.0.iter().all(|side| !side.is_empty() && side.magnitude() < 1e150) && policy::worth(tape)
+    }
+
+    /// A tree for a function of interest in and around the bounds; outside, the tape itself answers.
+    #[must_use]
+    pub fn new(tape: Tape, bounds: &Box3) -> Self {
+        let half = bounds.half_extent().0.into_iter().fold(f64::MIN_POSITIVE, f64::max);
+        let whole = Arc::new(tape);
+        let root = Node {
+            centre: bounds.mid().0,
+            half,
+            level: 0,
+            function: Valid::everywhere(whole.clone()),
+            above: whole.clauses().len(),
+            divides: true,
+            children: Default::default(),
+            asked: AtomicU64::new(0),
+        };
+        Self { whole, root }
+    }
+
+    /// The tape that answers a question about points of a box.
+    #[inline]
+    fn tape(&self, question: &Box3) -> &Tape {
+        let (mut tape, mut node) = (&*self.whole, &self.root);
+        let centre = question.mid().0;
+        while let Some(child) = node.child(centre)
+            && let Some(shorter) = child.function.on(question)
+        {
+            (tape, node) = (shorter, child);
+        }
+        node.asked.fetch_add(1, Ordering::Relaxed);
+        tape
+    }
+
+    /// What the tree holds and what it has done so far.
+    #[must_use]
+    pub fn count(&self) -> RegionCount {
+        let longest = self.whole.clauses().len();
+        let mut count = RegionCount { longest, shortest: longest, ..RegionCount::default() };
+        let mut stack = vec![&self.root];
+        while let Some(node) = stack.pop() {
+            let (length, asked) = (node.function.length(), node.asked.load(Ordering::Relaxed));
+            count.regions += 1;
+            count.shortest = count.shortest.min(length);
+            if length < node.above || node.level == 0 {
+                count.stored += length as u64;
+            }
+            count.questions += asked;
+            count.operations += asked * length as u64;
+            if node.level > 0 {
+                count.preparation += node.above as u64;
+            }
+            stack.extend(node.children.iter().filter_map(|c| c.get()?.as_deref()));
+        }
+        count
+    }
+}
+
+impl Node {
+    /// The region of the child in whose cell the point lies; `None` if there is no better one.
+    fn child(&self, at: [f64; 3]) -> Option<&Self> {
+        if !self.divides {
+            return None;
+        }
+        let upper: [bool; 3] = std::array::from_fn(|k| at[k] > self.centre[k]);
+        let index = upper.iter().enumerate().fold(0, |sum, (k, upper)| sum + (usize::from(*upper) << k));
+        self.children[index].get_or_init(|| self.make(upper).map(Box::new)).as_deref()
+    }
+
+    fn make(&self, upper: [bool; 3]) -> Option<Self> {
+        let half = 0.5 * self.half;
+        let centre: [f64; 3] = std::array::from_fn(|k| self.centre[k] + if upper[k] { half } else { -half });
+        // Twice the overlap, as it is counted in sides. Whatever these numbers are, the region is what they say.
+        let reach = half * (1.0 + 2.0 * policy::OVERLAP);
+        let side = |k: usize| Interval::try_new(centre[k] - reach, centre[k] + reach).unwrap_or(Interval::EMPTY);
+        let region = Box3(std::array::from_fn(side));
+        let function = self.function.shortened(&region, &mut Vec::new())?;
+        let (level, above) = (self.level + 1, self.function.length());
+        let divides = function.judged(|tape| policy::divides(tape, level, [above, self.above]));
+        let (children, asked) = (Default::default(), AtomicU64::new(0));
+        Some(Self { centre, half, level, function, above, divides, children, asked })
+    }
+}
+
+impl Inclusion for Regions {
+    fn range(&self, region: &Box3, work: &mut Workspace) -> Interval {
+        self.tape(region).range(region, work)
+    }
+
+    fn decorated(&self, region: &Box3, work: &mut Workspace) -> Decorated {
+        self.tape(region).decorated(region, work)
+    }
+
+    fn gradient(&self, region: &Box3, work: &mut Workspace) -> Gradient {
+        self.tape(region).gradient(region, work)
+    }
+
+    fn continuous_everywhere(&self) -> bool {
+        self.whole.is_continuous_everywhere()
+    }
+
+    fn operations(&self) -> usize {
+        self.whole.clauses().len()
+    }
+
+    fn ray(&self, point: [Dual<1>; 3], work: &mut Workspace) -> Dual<1> {
+        self.tape(&Box3(point.map(|x| x.value.range()))).ray(point, work)
+    }
+
+    fn beam(&self, point: BeamPoint, work: &mut Workspace) -> Affine<3> {
+        self.tape(&Box3(point.map(|x| x.range()))).beam(point, work)
+    }
+
+    // Slopes compare the values at two points: both belong to the question. What lies between them does not, but the regions
+    // are convex.
+    fn beam_slope(&self, point: [Slope<Interval, 3>; 3], work: &mut Workspace) -> Affine<3> {
+        self.tape(&Box3(point.map(|x| x.apex.hull(x.value.range())))).beam_slope(point, work)
+    }
+
+    fn shaft(&self, point: ShaftPoint, work: &mut Workspace) -> Affine<5> {
+        self.tape(&Box3(point.map(|x| x.range()))).shaft(point, work)
+    }
+
+    fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
+        self.tape(&Box3(point.map(|x| x.apex.range().hull(x.value.range())))).shaft_slope(point, work)
+    }
+
+    fn quadratic(&self, point: QuadraticPoint, work: &mut Workspace) -> Quadratic {
+        self.tape(&Box3(point.map(|x| x.range()))).quadratic(point, work)
+    }
+
+    fn quadratic_slope(&self, point: [SlopeOf<Interval, Quadratic>; 3], work: &mut Workspace) -> Quadratic {
+        self.tape(&Box3(point.map(|x| x.apex.hull(x.value.range())))).quadratic_slope(point, work)
+    }
+
+    fn bend(&self, point: JetPoint, work: &mut Workspace) -> Interval {
+        self.tape(&Box3(point.map(|x| x.value.range()))).bend(point, work)
+    }
+
+    fn bend_slope(&self, point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], work: &mut Workspace) -> Interval {
+        self.tape(&Box3(point.map(|x| x.apex.hull(x.value.range())))).bend_slope(point, work)
+    }
+
+    fn about(&self, point: [PointJet; 3], work: &mut Workspace) -> PointJet {
+        // Rounded numbers, which prove nothing: any tape would do.
+        let at = |x: f64| Interval::try_new(x, x).unwrap_or(Interval::EMPTY);
+        self.tape(&Box3(point.map(|x| at(x.value)))).about(point, work)
+    }
+}
