@@ -5,6 +5,7 @@ use std::{path::PathBuf, time::Duration};
 use antumbra::{
     render::{Method, Overlay, RenderSpec},
     report::Exhibit,
+    scene::{ColorBy, Exposure, Finish, Tone},
     shadow::Penumbra,
 };
 use clap::{Parser, Subcommand};
@@ -74,6 +75,9 @@ pub(crate) struct RenderArgs {
     pub(crate) method: Method,
 
     #[command(flatten)]
+    pub(crate) look: LookArgs,
+
+    #[command(flatten)]
     pub(crate) spec: SpecArgs,
 
     /// Stop after so many seconds of rendering, with an error; what is done is kept for --resume
@@ -105,12 +109,37 @@ pub(crate) struct RenderArgs {
     pub(crate) quiet: bool,
 }
 
+/// How the picture looks: nothing here is certified, and nothing changes what is.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Look")]
+pub(crate) struct LookArgs {
+    /// What becomes of light brighter than white: plain (cut) or filmic (pressed together)
+    #[arg(long, value_name = "TONE", value_parser = values::tone)]
+    pub(crate) tone: Option<Tone>,
+
+    /// Brightness: `auto`, or so many times twice as bright, such as 0.5 or -1
+    #[arg(long, value_name = "STOPS", value_parser = values::exposure, allow_negative_numbers = true)]
+    pub(crate) exposure: Option<Exposure>,
+
+    /// Dark lines where a surface ends or bends sharply
+    #[arg(long)]
+    pub(crate) outline: bool,
+
+    /// How all surfaces throw back light: matte, satin, gloss or metal
+    #[arg(long, value_name = "FINISH", value_parser = values::finish)]
+    pub(crate) finish: Option<Finish>,
+
+    /// What decides the colour of all surfaces: sides, normal or curvature (another formula: `field` in a scene file)
+    #[arg(long, value_name = "WHAT", value_parser = values::color_by)]
+    pub(crate) color_by: Option<ColorBy>,
+}
+
 /// What every command that renders understands.
 #[derive(Debug, clap::Args)]
 pub(crate) struct SpecArgs {
-    /// Size in pixels, N for a square or WxH
-    #[arg(long, value_name = "N|WxH", default_value = "512", value_parser = values::size, allow_negative_numbers = true)]
-    pub(crate) size: Size,
+    /// Size in pixels, N for a square or WxH [default: the scene's, or 512]
+    #[arg(long, value_name = "N|WxH", value_parser = values::size, allow_negative_numbers = true)]
+    pub(crate) size: Option<Size>,
 
     /// Make the light K times as wide
     #[arg(
@@ -143,8 +172,9 @@ pub(crate) struct SpecArgs {
     pub(crate) offset: Option<f64>,
 
     /// Certified: how wide a bracket of the visible fraction may be, as a number or a fraction such as 1/1024
-    #[arg(long, value_name = "T", default_value = "1/255", value_parser = values::tolerance, allow_negative_numbers = true)]
-    pub(crate) tolerance: f64,
+    /// [default: the scene's, or 1/255]
+    #[arg(long, value_name = "T", value_parser = values::tolerance, allow_negative_numbers = true)]
+    pub(crate) tolerance: Option<f64>,
 
     /// Certified: rectangles of the light that one hit may take before its bracket is left open
     #[arg(long, value_name = "N", default_value = "4000", value_parser = clap::value_parser!(u32).range(1..))]

@@ -14,12 +14,12 @@ use antumbra::{
     image::Depth,
     render::{Method, Overlay, RenderSpec, RunSpec},
     report::Exhibit,
-    scene::{self, GALLERY, GalleryEntry, Scene, SceneFile},
+    scene::{self, GALLERY, GalleryEntry, Output, Scene, SceneFile},
 };
 use anyhow::{Result, anyhow};
 
 use crate::{
-    args::{AuditArgs, CompareArgs, GalleryArgs, PaperArgs, RenderArgs, SpecArgs},
+    args::{AuditArgs, CompareArgs, GalleryArgs, PaperArgs, LookArgs, RenderArgs, SpecArgs},
     failure::Usage,
     import, values,
 };
@@ -100,7 +100,8 @@ impl RenderOptions {
     /// # Errors
     /// [`Usage`] where the scene, the formula or the extension of a file is not understood.
     pub(crate) fn new(args: RenderArgs) -> Result<Self> {
-        let scene = find_scene(&args.scene)?;
+        let mut scene = find_scene(&args.scene)?;
+        dress(Arc::make_mut(&mut scene.scene), &args.look);
         let picture = args.output.unwrap_or_else(|| PathBuf::from(format!("{}.png", scene.stem)));
         let depth = if args.bits == "16" { Depth::Sixteen } else { Depth::Eight };
         let format = format_of(&picture, depth)?;
@@ -108,7 +109,7 @@ impl RenderOptions {
         if json == Some(JsonTarget::File(picture.clone())) {
             return Err(Usage(format!("`{}` cannot be both picture and JSON", picture.display())).into());
         }
-        let (mut spec, run) = specs(args.spec, args.method);
+        let (mut spec, run) = specs(args.spec, args.method, scene.scene.output);
         spec.floor |= scene.scene.floor_shown;
         Ok(Self {
             scene,
@@ -140,7 +141,7 @@ impl CompareOptions {
             return Err(Usage("--methods needs at least one method".to_owned()).into());
         };
         let scene = find_scene(&args.scene)?;
-        let (mut spec, run) = specs(args.spec, first);
+        let (mut spec, run) = specs(args.spec, first, scene.scene.output);
         spec.floor |= scene.scene.floor_shown;
         Ok(Self {
             scene,
@@ -157,7 +158,7 @@ impl CompareOptions {
 impl PaperOptions {
     /// Pictures need a folder, the current one by default; a table needs none.
     pub(crate) fn new(args: PaperArgs) -> Self {
-        let (spec, run) = specs(args.spec, RenderSpec::default().method);
+        let (spec, run) = specs(args.spec, RenderSpec::default().method, Output::default());
         let folder = args.output.or(args.exhibit.has_pictures().then(|| PathBuf::from(".")));
         Self { exhibit: args.exhibit, spec, run, folder, quiet: args.quiet }
     }
@@ -189,21 +190,28 @@ impl AuditOptions {
     /// # Errors
     /// [`Usage`] where the scene or the formula is not understood.
     pub(crate) fn new(args: AuditArgs) -> Result<Self> {
-        let (spec, run) = specs(args.spec, Method::Certified);
         let folder = Path::new(&args.frame);
         // No formula is the name of a folder, but for very odd folders; a preset may be.
         let audited = if args.frame.ends_with('/') || (!scene::names().any(|name| name == args.frame) && folder.is_dir()) {
-            Audited::Folder(folder.to_owned())
+            None
         } else {
-            let scene = find_scene(&args.frame)?;
-            let floor = spec.floor || scene.scene.floor_shown;
-            Audited::Scene(scene, RenderSpec { floor, ..spec.clone() })
+            Some(find_scene(&args.frame)?)
+        };
+        let wanted = audited.as_ref().map_or_else(Output::default, |scene| scene.scene.output);
+        let (mut spec, run) = specs(args.spec, Method::Certified, wanted);
+        let seed = spec.seed;
+        let audited = match audited {
+            None => Audited::Folder(folder.to_owned()),
+            Some(scene) => {
+                spec.floor |= scene.scene.floor_shown;
+                Audited::Scene(scene, spec)
+            }
         };
         let json = args.json.map(json_target);
         Ok(Self {
             audited,
             pixels: args.pixels as usize,
-            seed: spec.seed,
+            seed,
             run,
             json,
             budget: args.budget,
@@ -243,7 +251,7 @@ impl GalleryOptions {
         }
         let wanted = |e: &&GalleryEntry| args.names.is_empty() || args.names.iter().any(|name| name == e.name);
         let entries = GALLERY.iter().filter(wanted).collect();
-        let (spec, run) = specs(args.spec, Method::Certified);
+        let (spec, run) = specs(args.spec, Method::Certified, Output::default());
         Ok(Self {
             list: args.list,
             entries,
@@ -262,10 +270,27 @@ pub(crate) fn thread_count(run: &RunSpec) -> usize {
     run.threads.or_else(|| thread::available_parallelism().ok().map(Into::into)).unwrap_or(1)
 }
 
-fn specs(args: SpecArgs, method: Method) -> (RenderSpec, RunSpec) {
+/// What the command line says of the look holds for all surfaces of the scene.
+fn dress(scene: &mut Scene, args: &LookArgs) {
+    let look = &mut scene.look;
+    look.tone = args.tone.unwrap_or(look.tone);
+    look.exposure = args.exposure.unwrap_or(look.exposure);
+    look.outline |= args.outline;
+    for object in &mut scene.objects {
+        object.finish = args.finish.unwrap_or(object.finish);
+        if let Some(by) = args.color_by {
+            object.coloring = by.coloring();
+        }
+    }
+}
+
+/// What to draw and how to run: what the command line says, else what the scene wants, else the usual.
+fn specs(args: SpecArgs, method: Method, wanted: Output) -> (RenderSpec, RunSpec) {
+    let usual = RenderSpec::default();
+    let [width, height] = wanted.size.unwrap_or([usual.width, usual.height]);
     let spec = RenderSpec {
-        width: args.size.width,
-        height: args.size.height,
+        width: args.size.map_or(width, |size| size.width),
+        height: args.size.map_or(height, |size| size.height),
         method,
         light_scale: args.light_scale,
         floor: args.floor,
@@ -273,7 +298,7 @@ fn specs(args: SpecArgs, method: Method) -> (RenderSpec, RunSpec) {
         sub_beams: args.sub_beams,
         offset: args.offset,
         seed: args.seed,
-        tolerance: args.tolerance,
+        tolerance: args.tolerance.or(wanted.tolerance).unwrap_or(usual.tolerance),
         rectangles: args.rectangles,
         penumbra: args.penumbra,
         ..RenderSpec::default()

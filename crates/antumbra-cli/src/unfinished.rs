@@ -16,7 +16,7 @@ use antumbra::{
 use anyhow::{Result, anyhow};
 
 use crate::{
-    commands::picture_bytes,
+    commands::frame_bytes,
     options::Format,
     output::{Sink, finish, remark},
 };
@@ -121,7 +121,8 @@ impl Unfinished {
         }
         self.save(&renderer)?;
         let mut preview = Sink::open(&self.preview)?;
-        preview.fill(&picture_bytes(&renderer.preview().planes()?, self.format)?)?;
+        let look = renderer.scene().look;
+        preview.fill(&frame_bytes(&renderer.preview(), &look, self.format)?)?;
         finish(vec![preview])?;
         Ok(format!(
             "about {share:.0} % is done and kept in `{}`: the same command with --resume goes on with it; `{}` shows it",

@@ -5,6 +5,7 @@ use std::time::Duration;
 use antumbra::{
     render::{Method, Overlay},
     report::Exhibit,
+    scene::{ColorBy, Exposure, Finish, Tone},
     shadow::Penumbra,
 };
 
@@ -118,6 +119,36 @@ pub(crate) fn method(text: &str) -> Result<Method, String> {
 /// A way to resolve penumbrae by its name.
 pub(crate) fn penumbra(text: &str) -> Result<Penumbra, String> {
     Penumbra::from_name(text).ok_or_else(|| choices("orders", text, &Penumbra::ALL.map(|(_, name)| name)))
+}
+
+/// A tone by its name.
+pub(crate) fn tone(text: &str) -> Result<Tone, String> {
+    by_name("tones", text, &Tone::ALL)
+}
+
+/// A finish by its name.
+pub(crate) fn finish(text: &str) -> Result<Finish, String> {
+    by_name("finishes", text, &Finish::ALL)
+}
+
+/// What decides colours, by its name.
+pub(crate) fn color_by(text: &str) -> Result<ColorBy, String> {
+    by_name("choices", text, &ColorBy::ALL)
+}
+
+/// `auto`, or a number of stops.
+pub(crate) fn exposure(text: &str) -> Result<Exposure, String> {
+    let message = || format!("give `auto`, or a number of stops from -{0} to {0}, such as 0.5", Exposure::MOST);
+    match text.parse::<f64>() {
+        _ if text == "auto" => Ok(Exposure::AUTO),
+        Ok(stops) if stops.abs() <= Exposure::MOST => Ok(Exposure::Stops(stops)),
+        _ => Err(message()),
+    }
+}
+
+fn by_name<T: Copy>(what: &str, text: &str, all: &[(T, &'static str)]) -> Result<T, String> {
+    let names: Vec<&str> = all.iter().map(|(_, name)| *name).collect();
+    all.iter().find(|(_, name)| *name == text).map(|(value, _)| *value).ok_or_else(|| choices(what, text, &names))
 }
 
 /// An exhibit by its name.

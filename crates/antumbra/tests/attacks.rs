@@ -17,15 +17,12 @@ fn drawn(scene: Scene, size: usize, floor: bool) -> (Frame, Stats) {
 }
 
 fn scene_of(texts: &[&str], clip: Box3, eye: Vec3) -> Scene {
+    let objects = texts.iter().map(|text| Object::parse(text, Clip::Box(clip)).unwrap()).collect();
     Scene {
-        name: "attack".to_owned(),
-        title: "Attack".to_owned(),
-        about: None,
-        objects: texts.iter().map(|text| Object::parse(text, Clip::Box(clip)).unwrap()).collect(),
         floor_height: -4.0,
-        floor_shown: false,
         view: View { eye, target: Vec3::default(), fov_deg: 20.0 },
         lights: vec![Light::white(Rect::horizontal(Vec3::new(1.0, 2.0, 9.0), 1.0))],
+        ..Scene::new("attack", objects)
     }
 }
 

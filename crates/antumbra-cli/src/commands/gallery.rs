@@ -106,7 +106,7 @@ fn draw(
     let mut picture = folder.sink(&format!("{}.png", entry.name))?;
     let spec = RenderSpec { floor: options.spec.floor || scene.floor_shown, ..options.spec.clone() };
     let (frame, stats) = render(&scene, spec, options.run, options.budget, &Progress::new(options.quiet, label))?;
-    let png = png_bytes(frame.planes()?.require(COLOR_PLANE)?, Depth::Eight)?;
+    let png = png_bytes(frame.picture(&scene.look)?.require(COLOR_PLANE)?, Depth::Eight)?;
     picture.fill(&png)?;
     finish(vec![picture])?;
     sheet.add(&frame);

@@ -16,7 +16,8 @@ use std::{
 
 use antumbra::{
     image::{COLOR_PLANE, Planes, exr_bytes, png_bytes},
-    render::Renderer,
+    render::{Frame, Renderer},
+    scene::Look,
 };
 use anyhow::{Result, bail};
 use serde::Serialize;
@@ -105,6 +106,15 @@ fn spent(budget: Option<Duration>, left: &str) -> String {
         "the budget of {seconds} s is spent; {left}. Allow more with --budget, or ask for less with --size, --tolerance \
          or --rectangles"
     )
+}
+
+/// The bytes of a frame's picture: as it is to be looked at, or as data.
+pub(crate) fn frame_bytes(frame: &Frame, look: &Look, format: Format) -> Result<Vec<u8>> {
+    let planes = match format {
+        Format::Png(_) => frame.picture(look),
+        Format::Exr => frame.planes(),
+    };
+    picture_bytes(&planes?, format)
 }
 
 /// The bytes of a picture file.

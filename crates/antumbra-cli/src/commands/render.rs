@@ -9,7 +9,7 @@ use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::{
-    End, deadline, json_sink, json_text, picture_bytes, print_json, pursue, record::FrameRecord, spent,
+    End, deadline, json_sink, json_text, frame_bytes, picture_bytes, print_json, pursue, record::FrameRecord, spent,
 };
 use crate::{
     failure::Interrupted,
@@ -60,8 +60,10 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     }
 
     let planes = renderer.frame().planes()?;
-    let overlay = options.overlay.map(|kind| renderer.frame().overlay(kind, options.spec.tolerance)).transpose()?;
-    picture.fill(&picture_bytes(overlay.as_ref().unwrap_or(&planes), options.format)?)?;
+    picture.fill(&match options.overlay {
+        Some(kind) => picture_bytes(&renderer.frame().overlay(kind, options.spec.tolerance)?, options.format)?,
+        None => frame_bytes(renderer.frame(), &options.scene.scene.look, options.format)?,
+    })?;
     let mut sinks = vec![picture];
     if let Some(folder) = &folder {
         for plane in planes.iter() {

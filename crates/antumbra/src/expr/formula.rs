@@ -42,6 +42,15 @@ impl Formula {
         Ok(Self::read(source)?.0)
     }
 
+    /// The definitions of a formula, and its equation as one expression in parentheses, so that it can be put into calls: a
+    /// text made of the first and of `max(second, z)` means the formula's solid below `z = 0`.
+    ///
+    /// # Errors
+    /// As [`parse`](Self::parse), but only where the words themselves are wrong.
+    pub fn split(source: &str) -> Result<[String; 2], Error> {
+        statement::split_text(source)
+    }
+
     /// The formula as written, and the place of its equation.
     fn read(source: &str) -> Result<(Self, Range<usize>), Error> {
         if source.len() > MAX_SOURCE {

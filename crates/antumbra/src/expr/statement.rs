@@ -38,6 +38,26 @@ pub(crate) fn read(source: &str) -> Result<Program, Error> {
     Ok(Program { tree: reader.tree, definitions: reader.definitions, equation })
 }
 
+/// The statements before the last, as text that can stand before another one, and the last as one expression in parentheses:
+/// `a = b` is `((a) - (b))`. Comments and blanks of the last statement's ends are left out.
+pub(crate) fn split_text(source: &str) -> Result<[String; 2], Error> {
+    let words = words(source)?;
+    match_parentheses(source, &words)?;
+    let statements = split(&words);
+    let Some(last) = statements.last() else { return Ok([String::new(), String::new()]) };
+    let text = |words: &[Placed]| match words {
+        [] => "",
+        [(_, first), ..] => &source[first.start..words[words.len() - 1].1.end],
+    };
+    let begin = last[0].1.start;
+    // A comment ends with its line.
+    let expression = match last.iter().position(|(w, _)| *w == Word::Equals) {
+        None => format!("({}\n)", text(last)),
+        Some(at) => format!("(({}\n) - ({}\n))", text(&last[..at]), text(&last[at + 1..])),
+    };
+    Ok([source[..begin].to_owned(), expression])
+}
+
 /// Every parenthesis has its partner; at the first that has not, says which one.
 fn match_parentheses(source: &str, words: &[Placed]) -> Result<(), Error> {
     let mut open: Vec<Range<usize>> = vec![];

@@ -3,7 +3,6 @@ use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
 use super::task::Task;
 use super::{Frame, LightPlanes, Method, Stats};
-use crate::scene::Colors;
 use crate::verdict::{Reason, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -136,21 +135,20 @@ impl Book {
     /// it is lit.
     fn color(&self, task: &Task, index: usize, hit: Option<&Hit>, lit_as: Option<usize>) -> [f32; 3] {
         let (column, row) = (index % task.film.width, index / task.film.width);
-        let backdrop = shade::backdrop(&task.film, column as f64 + 0.5, row as f64 + 0.5);
+        let backdrop = shade::backdrop(&task.scene.backdrop, &task.film, column as f64 + 0.5, row as f64 + 0.5);
         let Some(hit) = hit else { return backdrop.map(|c| c as f32) };
         // All hits of the paper's methods are undecided; there it would say nothing.
         let touching = task.method == Method::Certified && hit.receiver.is_none() && !self.at_an_edge(task, index);
-        let Hit { point: position, normal, outside, floor, object, .. } = *hit;
-        let Colors { outside: above, inside: below } = task.objects[object].colors;
-        let color = if outside { above } else { below };
-        let point = Point { position, normal, color, floor, touching };
+        let Hit { point: position, normal, color, floor, object, .. } = *hit;
+        let finish = task.objects[object].finish;
+        let point = Point { position, normal, color, finish, floor, touching };
         let eye = task.film.camera.eye;
-        let lights = task.lights.iter().zip(&self.frame.lights).map(|(light, planes)| Lamp {
-            place: light.rect.center,
-            color: light.color,
-            visible: lit_as.map_or(1.0, |at| planes.visible(at)),
+        let lights = task.lights.iter().zip(&task.full).zip(&self.frame.lights).map(|((light, full), planes)| Lamp {
+            light,
+            full: *full,
+            visible: lit_as.map(|at| planes.visible(at)),
         });
-        shade::shade(&point, lights, eye, backdrop, task.scene.scale()).map(|c| c as f32)
+        shade::shade(&point, lights, &task.scene.sky, eye, backdrop, task.scene.scale()).map(|c| c as f32)
     }
 
     /// The colours that depend on neighbouring pixels, when those are known: of what may be a surface, and of edges.

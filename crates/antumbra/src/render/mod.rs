@@ -5,7 +5,9 @@
 mod book;
 mod by_paper;
 mod by_proof;
+mod develop;
 mod frame;
+mod irradiance;
 mod overlay;
 mod pixel;
 mod planes;

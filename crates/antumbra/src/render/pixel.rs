@@ -15,8 +15,8 @@ pub(super) struct Hit {
     pub(super) point: Vec3,
     /// Unit normal, turned to the viewer.
     pub(super) normal: Vec3,
-    /// Whether the viewer is on the side where f > 0.
-    pub(super) outside: bool,
+    /// Colour of the surface there, linear Rec. 709. Not certified.
+    pub(super) color: [f64; 3],
     /// Index of the surface.
     pub(super) object: usize,
     /// Whether that is the floor.

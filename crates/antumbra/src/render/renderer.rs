@@ -101,6 +101,12 @@ impl Renderer {
         Arc::clone(&self.stop)
     }
 
+    /// The scene that is drawn.
+    #[must_use]
+    pub fn scene(&self) -> &Scene {
+        &self.task.scene
+    }
+
     /// The frame of an unfinished render with the colours of its edges, as far as they are known: to be looked at. What
     /// was not looked at is black, light that was not looked for is there.
     #[must_use]

@@ -1,5 +1,7 @@
 //! Colours. Nothing here is certified; everything that is goes in as numbers and comes out as light.
+use super::irradiance::irradiance;
 use crate::geom::{Film, Vec3};
+use crate::scene::{Backdrop, Finish, Light, Sky};
 
 /// What is known of a lit point.
 #[derive(Clone, Copy, Debug)]
@@ -8,8 +10,10 @@ pub(super) struct Point {
     pub(super) position: Vec3,
     /// Unit normal, turned to the viewer.
     pub(super) normal: Vec3,
-    /// Colour of the side that is seen.
+    /// Colour of the surface.
     pub(super) color: [f64; 3],
+    /// How it throws back light.
+    pub(super) finish: Finish,
     /// Whether it belongs to the floor.
     pub(super) floor: bool,
     /// Whether f seems to touch 0 there without a change of sign: not proved to be a surface.
@@ -18,34 +22,31 @@ pub(super) struct Point {
 
 /// A light as a point sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Lamp {
-    /// Its middle.
-    pub(super) place: Vec3,
-    /// Its colour times its strength over pi.
-    pub(super) color: [f64; 3],
-    /// Fraction of it that is visible.
-    pub(super) visible: f64,
+pub(super) struct Lamp<'a> {
+    pub(super) light: &'a Light,
+    /// Its form factor where it has its full strength.
+    pub(super) full: f64,
+    /// Fraction of it that is visible; without it, all that is above the horizon.
+    pub(super) visible: Option<f64>,
 }
 
 /// What may be a surface: violet, like nothing else.
 const TOUCHING: [f64; 3] = [0.55, 0.20, 0.60];
 const FLOOR: [f64; 3] = [0.62, 0.62, 0.64];
-/// Fill light from above and from below.
-const SKY: [f64; 3] = [0.20, 0.23, 0.28];
-const GROUND: [f64; 3] = [0.10, 0.09, 0.085];
 
-/// The backdrop behind everything: a soft grey, lighter around the middle.
-pub(super) fn backdrop(film: &Film, column: f64, row: f64) -> [f64; 3] {
+/// The backdrop behind everything: lighter around the middle.
+pub(super) fn backdrop(behind: &Backdrop, film: &Film, column: f64, row: f64) -> [f64; 3] {
     let (w, h) = (film.width as f64, film.height as f64);
     let (x, y) = ((column - 0.5 * w) / w.min(h), (row - 0.45 * h) / w.min(h));
-    let fall = 1.0 / (1.0 + 1.1 * (x * x + y * y));
-    [0.60, 0.63, 0.67].map(|c| c * fall)
+    let fall = 1.0 / (1.0 + 1.1 * behind.falloff * (x * x + y * y));
+    behind.color.map(|c| c * fall)
 }
 
 /// The colour of a point under lights, seen from `eye`.
-pub(super) fn shade(
+pub(super) fn shade<'a>(
     p: &Point,
-    lights: impl Iterator<Item = Lamp>,
+    lights: impl Iterator<Item = Lamp<'a>>,
+    sky: &Sky,
     eye: Vec3,
     backdrop: [f64; 3],
     scale: f64,
@@ -58,19 +59,27 @@ pub(super) fn shade(
         Point { color, .. } => *color,
     };
     let mut color: [f64; 3] = std::array::from_fn(|i| {
-        let fill = GROUND[i] + (SKY[i] - GROUND[i]) * up;
+        let fill = sky.below[i] + (sky.above[i] - sky.below[i]) * up;
         // A thin rim of light where the surface turns away gives shape to the shadows.
         let turned = 1.0 - p.normal.dot(to_eye).abs();
         let rim = 0.10 * turned * turned * turned;
-        base[i] * fill + rim * SKY[i]
+        base[i] * fill + rim * sky.above[i]
     });
-    for light in lights {
-        let to_light = (light.place - p.position).normalized();
-        let cosine = p.normal.dot(to_light);
-        if cosine > 0.0 {
-            let half = (to_light + to_eye).normalized();
-            let gloss = if p.floor { 0.0 } else { 0.22 * core_math::pow(p.normal.dot(half).max(0.0), 48.0) };
-            (0..3).for_each(|i| color[i] += light.visible * light.color[i] * (base[i] * cosine + gloss));
+    let reflection = if p.floor { Finish::Matte } else { p.finish }.reflection();
+    for lamp in lights {
+        let got = irradiance(p.position, p.normal, &lamp.light.rect);
+        if got.above <= 0.0 {
+            continue;
+        }
+        // The visible fraction counts what the horizon cuts off, and so does the form factor: once is enough.
+        let visible = lamp.visible.map_or(1.0, |visible| (visible / got.above).min(1.0));
+        let diffuse = reflection.diffuse * visible * got.form / lamp.full;
+        let to_light = (lamp.light.rect.center - p.position).normalized();
+        let half = (to_light + to_eye).normalized();
+        let gloss = reflection.strength * core_math::pow(p.normal.dot(half).max(0.0), reflection.exponent);
+        for i in 0..3 {
+            let tint = 1.0 + (base[i] - 1.0) * reflection.tint;
+            color[i] += lamp.light.color[i] * (base[i] * diffuse + visible * gloss * tint);
         }
     }
     if !p.floor {

@@ -1,10 +1,11 @@
 //! One picture as the passes see it: everything that does not change while it is drawn.
+use super::irradiance::irradiance;
 use super::pixel::Hit;
 use super::spec::{Error, Method, RenderSpec};
 use crate::eval::{Inclusion, Workspace};
-use crate::geom::{Beam, Film, Vec3};
+use crate::geom::{Beam, Film, Rect, Vec3};
 use crate::paper::Settings;
-use crate::scene::{Light, Object, Scene};
+use crate::scene::{ColorMap, Coloring, Colors, Light, Object, Scene};
 use crate::shadow::Tolerance;
 use crate::trace::{Sign, Surface};
 use antumbra_interval::Interval;
@@ -18,6 +19,8 @@ pub(super) struct Task {
     pub(super) has_floor: bool,
     pub(super) film: Film,
     pub(super) lights: Vec<Light>,
+    /// Form factor of each light where the camera looks, on a patch that faces it: full light.
+    pub(super) full: Vec<f64>,
     pub(super) settings: Settings,
     pub(super) tolerance: Tolerance,
     pub(super) method: Method,
@@ -54,8 +57,9 @@ impl Task {
         };
         let tolerance = Tolerance { width: spec.tolerance, rectangles: spec.rectangles, penumbra: spec.penumbra };
         let scaled = |light: &Light| Light { rect: light.rect.scaled(spec.light_scale), ..*light };
-        let lights = scene.lights.iter().map(scaled).collect();
-        Ok(Self { scene, objects, has_floor, film, lights, settings, tolerance, method: spec.method })
+        let lights: Vec<Light> = scene.lights.iter().map(scaled).collect();
+        let full = lights.iter().map(|light| full(scene.view.target, &light.rect)).collect();
+        Ok(Self { scene, objects, has_floor, film, lights, full, settings, tolerance, method: spec.method })
     }
 
     /// The objects as surfaces.
@@ -90,8 +94,51 @@ impl Task {
         }
         let view = beam.direction.mid().normalized();
         let (normal, outside) = oriented_normal(self.objects[object].surface.as_ref(), point, view, before, work);
-        Hit { t, point, normal, outside, object, floor, receiver: None }
+        let color = paint(&self.objects[object], point, normal, outside, self.scene.scale(), work);
+        Hit { t, point, normal, color, object, floor, receiver: None }
     }
+}
+
+/// Form factor of a light on a patch at `target` that faces its middle. Positive, so that one may divide by it.
+fn full(target: Vec3, light: &Rect) -> f64 {
+    let towards = (light.center - target).normalized();
+    irradiance(target, towards, light).form.max(f64::MIN_POSITIVE)
+}
+
+/// Colour of a surface at a point, of which the normal is turned to the viewer.
+fn paint(object: &Object, point: Vec3, normal: Vec3, outside: bool, scale: f64, work: &mut Workspace) -> [f64; 3] {
+    let Colors { outside: above, inside: below } = object.colors;
+    match &object.coloring {
+        Coloring::Sides if outside => above,
+        Coloring::Sides => below,
+        Coloring::Normal => {
+            let upright = if outside { normal } else { -normal };
+            upright.0.map(|n| 0.08 + 0.72 * (0.5 + 0.5 * n) * (0.5 + 0.5 * n))
+        }
+        Coloring::Curvature => {
+            let bend = curvature(object.surface.as_ref(), point, normal, 1e-4 * scale, work) * scale;
+            // Half of the map for a ball of the scene's size; the rest for all smaller ones.
+            ColorMap::Diverging.color(0.5 - 0.5 * core_math::tanh(0.5 * bend))
+        }
+        Coloring::Field(field, function) => {
+            let value = function.range(&point.to_box(), work).mid();
+            field.map.color((value - field.from) / (field.to - field.from))
+        }
+    }
+}
+
+/// Mean curvature, about: half the divergence of the unit normal, by differences over `step`. Positive for a ball seen
+/// from outside.
+fn curvature(f: &dyn Inclusion, point: Vec3, normal: Vec3, step: f64, work: &mut Workspace) -> f64 {
+    let mut unit = |axis: usize, by: f64| {
+        let mut at = point;
+        at.0[axis] += by;
+        let n = Vec3(f.gradient(&at.to_box(), work).partials.map(|d| if d.is_empty() { 0.0 } else { d.mid() }));
+        let n = n.normalized();
+        if n.dot(normal) < 0.0 { -n } else { n }
+    };
+    let divergence: f64 = (0..3).map(|k| (unit(k, step)[k] - unit(k, -step)[k]) / (2.0 * step)).sum();
+    0.5 * divergence
 }
 
 /// The unit normal towards the viewer, and whether he is on the side where f > 0.

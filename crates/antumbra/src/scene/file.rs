@@ -1,7 +1,7 @@
 //! Scenes as text: TOML files, read with errors that name line and key, and written so that they can be read again.
-use super::{About, Colors, Light, Object, Scene, View, extent, framing};
-use crate::geom::{Box3, Clip, Rect, Vec3};
-use antumbra_interval::Interval;
+use super::entry::{CameraEntry, ColorBy, ClipEntry, FloorEntry, LightEntry, SurfaceEntry};
+use super::{About, Backdrop, Colors, Exposure, Light, Look, Object, Output, Scene, Sky, View, framing};
+use crate::geom::Clip;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -30,6 +30,18 @@ pub struct SceneFile {
     /// A floor under the surfaces.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub floor: Option<FloorEntry>,
+    /// Soft light from everywhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sky: Option<Sky>,
+    /// What is behind everything.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub backdrop: Option<Backdrop>,
+    /// From light to the picture.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub look: Option<Look>,
+    /// Size and tolerance, where the command line does not say otherwise.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub output: Option<Output>,
 }
 
 /// A number with a name.
@@ -64,88 +76,6 @@ impl Parameter {
     }
 }
 
-/// One surface.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct SurfaceEntry {
-    /// The formula, in the language of formulas; parameters of the scene may be used.
-    pub formula: String,
-    /// Where the surface ends; without it, a box that holds it or a good part of it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub clip: Option<ClipEntry>,
-    /// Colour of the side on which f > 0, linear Rec. 709 components from 0 to 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub outside: Option<[f64; 3]>,
-    /// Colour of the other side.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub inside: Option<[f64; 3]>,
-}
-
-/// A region: `box` (half sizes about the origin), `min` and `max`, or `ball` (a radius) and `center`.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct ClipEntry {
-    /// Half sizes of a box about the origin.
-    #[serde(rename = "box", skip_serializing_if = "Option::is_none")]
-    pub half: Option<[f64; 3]>,
-    /// Lower corner of a box.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub min: Option<[f64; 3]>,
-    /// Upper corner of it.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub max: Option<[f64; 3]>,
-    /// Radius of a ball.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub ball: Option<f64>,
-    /// Its middle; by default the origin.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub center: Option<[f64; 3]>,
-}
-
-/// A rectangular light: its middle and either the `side` of a horizontal square or two half edges `u` and `v`.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct LightEntry {
-    /// Its middle.
-    pub center: [f64; 3],
-    /// Side of a horizontal square.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub side: Option<f64>,
-    /// Half of one edge.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub u: Option<[f64; 3]>,
-    /// Half of the other.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub v: Option<[f64; 3]>,
-    /// Its colour, linear Rec. 709; by default a warm white.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub color: Option<[f64; 3]>,
-    /// Factor on the colour; by default 1.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub strength: Option<f64>,
-}
-
-/// A perspective camera; up is z.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct CameraEntry {
-    /// Where it stands.
-    pub eye: [f64; 3],
-    /// What it looks at; by default the origin.
-    #[serde(default)]
-    pub target: [f64; 3],
-    /// Full angle over the shorter side of the picture, degrees.
-    pub angle: f64,
-}
-
-/// A horizontal floor.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(deny_unknown_fields)]
-pub struct FloorEntry {
-    /// Its height.
-    pub height: f64,
-}
-
 /// Why a scene file is refused.
 #[derive(Debug, thiserror::Error)]
 pub enum FileError {
@@ -175,12 +105,12 @@ pub enum FileError {
     },
 }
 
-fn value_error(key: impl Into<String>, reason: impl Into<String>) -> FileError {
+pub(super) fn value_error(key: impl Into<String>, reason: impl Into<String>) -> FileError {
     FileError::Value { key: key.into(), reason: reason.into() }
 }
 
 /// Numbers of a key that must all be finite.
-fn finite(key: &str, numbers: &[f64]) -> Result<(), FileError> {
+pub(super) fn finite(key: &str, numbers: &[f64]) -> Result<(), FileError> {
     if numbers.iter().all(|x| x.abs() <= 1e150) {
         return Ok(());
     }
@@ -218,7 +148,17 @@ impl SceneFile {
                 }
             };
             let Colors { outside, inside } = o.colors;
-            SurfaceEntry { formula: o.text.clone(), clip, outside: Some(outside), inside: Some(inside) }
+            let (color_by, field) = ColorBy::of(&o.coloring);
+            SurfaceEntry {
+                formula: o.text.clone(),
+                clip,
+                outside: Some(outside),
+                inside: Some(inside),
+                finish: Some(o.finish),
+                color_by,
+                field,
+                ..SurfaceEntry::default()
+            }
         };
         let light = |l: &Light| LightEntry {
             center: l.rect.center.0,
@@ -237,6 +177,10 @@ impl SceneFile {
             light: Some(scene.lights.iter().map(light).collect()),
             camera: Some(CameraEntry { eye: eye.0, target: target.0, angle: fov_deg }),
             floor: scene.floor_shown.then_some(FloorEntry { height: scene.floor_height }),
+            sky: Some(scene.sky),
+            backdrop: Some(scene.backdrop),
+            look: Some(scene.look),
+            output: (scene.output != Output::default()).then_some(scene.output),
         }
     }
 
@@ -287,32 +231,7 @@ impl SceneFile {
         // On the formula's own line, so that its errors count lines as the file's string does.
         let definitions: String =
             self.parameters.iter().map(|(name, p)| format!("{name} = ({:?}); ", p.value())).collect();
-        let object = |(k, entry): (usize, &SurfaceEntry)| {
-            let key = |part: &str| format!("surface[{}].{part}", k + 1);
-            let text = format!("{definitions}{}", entry.formula);
-            let clip = entry.clip.map(|c| c.clip(&key("clip"))).transpose()?;
-            let object = Object::parse(&text, Clip::Everywhere).map_err(|e| FileError::Formula {
-                key: key("formula"),
-                message: match &e {
-                    super::Error::Formula(e) => e.render(&text),
-                    super::Error::Tape(e) => e.to_string(),
-                },
-            })?;
-            let clip = clip.unwrap_or_else(|| Clip::Box(extent(object.surface.as_ref()).clip()));
-            let mut object = object.with_clip(clip);
-            for (part, given, color) in [
-                ("outside", entry.outside, &mut object.colors.outside),
-                ("inside", entry.inside, &mut object.colors.inside),
-            ] {
-                if let Some(given) = given {
-                    if !given.iter().all(|c| (0.0..=1.0).contains(c)) {
-                        return Err(value_error(key(part), "a colour has three components from 0 to 1"));
-                    }
-                    *color = given;
-                }
-            }
-            Ok(object)
-        };
+        let object = |(k, entry): (usize, &SurfaceEntry)| entry.object(&format!("surface[{}]", k + 1), &definitions);
         let objects = self.surface.iter().enumerate().map(object).collect::<Result<Vec<_>, _>>()?;
         let title = self.title.clone().unwrap_or_else(|| name.to_owned());
         let mut scene = framing::scene(name.to_owned(), title, objects);
@@ -328,84 +247,42 @@ impl SceneFile {
             finite("floor.height", &[height])?;
             (scene.floor_height, scene.floor_shown) = (height, true);
         }
+        scene.sky = self.sky.unwrap_or_default();
+        scene.backdrop = self.backdrop.unwrap_or_default();
+        scene.look = self.look.unwrap_or_default();
+        scene.output = self.output.unwrap_or_default();
+        check_look(&scene)?;
         Ok(scene)
     }
 }
 
-impl ClipEntry {
-    fn clip(&self, key: &str) -> Result<Clip, FileError> {
-        let Self { half, min, max, ball, center } = *self;
-        let corners = match (half, min, max, ball) {
-            (Some(half), None, None, None) if center.is_none() => [half.map(|h| -h), half],
-            (None, Some(min), Some(max), None) if center.is_none() => [min, max],
-            (None, None, None, Some(radius)) => {
-                let center = center.unwrap_or_default();
-                finite(key, &[radius, center[0], center[1], center[2]])?;
-                if radius <= 0.0 {
-                    return Err(value_error(format!("{key}.ball"), "the radius must be greater than 0"));
-                }
-                return Ok(Clip::Ball { center: Vec3(center), radius });
-            }
-            _ => {
-                let reason =
-                    "give either `box` (half sizes), `min` and `max`, or `ball` (a radius) with or without `center`";
-                return Err(value_error(key, reason));
-            }
-        };
-        let mut sides = [Interval::ZERO; 3];
-        for k in 0..3 {
-            let (lo, hi) = (corners[0][k], corners[1][k]);
-            finite(key, &[lo, hi])?;
-            if lo >= hi {
-                return Err(value_error(key, format!("the box is empty: from {lo} to {hi} along axis {}", k + 1)));
-            }
-            sides[k] = Interval::new(lo, hi);
-        }
-        Ok(Clip::Box(Box3(sides)))
-    }
-}
-
-impl CameraEntry {
-    fn view(&self) -> Result<View, FileError> {
-        let Self { eye, target, angle } = *self;
-        finite("camera", &[eye, target].concat())?;
-        if eye == target {
-            return Err(value_error("camera", "eye and target are the same point"));
-        }
-        if !(0.01..=170.0).contains(&angle) {
-            return Err(value_error("camera.angle", format!("must be from 0.01 to 170 degrees, not {angle}")));
-        }
-        Ok(View { eye: Vec3(eye), target: Vec3(target), fov_deg: angle })
-    }
-}
-
-impl LightEntry {
-    fn light(&self, key: &str) -> Result<Light, FileError> {
-        let center = Vec3(self.center);
-        finite(key, &self.center)?;
-        let rect = match (self.side, self.u, self.v) {
-            (Some(side), None, None) => {
-                if !(side > 0.0 && side <= 1e150) {
-                    return Err(value_error(format!("{key}.side"), "must be greater than 0"));
-                }
-                Rect::horizontal(center, side)
-            }
-            (None, Some(u), Some(v)) => {
-                finite(key, &[u, v].concat())?;
-                if Vec3(u).cross(Vec3(v)) == Vec3::default() {
-                    return Err(value_error(key, "`u` and `v` span no rectangle"));
-                }
-                Rect { center, edge_u: Vec3(u), edge_v: Vec3(v) }
-            }
-            _ => return Err(value_error(key, "give either `side` (a horizontal square) or `u` and `v` (half edges)")),
-        };
-        let strength = self.strength.unwrap_or(1.0);
-        let color = self.color.unwrap_or(Light::WHITE).map(|c| c * strength);
+/// Whether colours and numbers that only the eye sees are such.
+fn check_look(scene: &Scene) -> Result<(), FileError> {
+    let colors = [("sky.above", scene.sky.above), ("sky.below", scene.sky.below), ("backdrop.color", scene.backdrop.color)];
+    for (key, color) in colors {
         if !color.iter().all(|c| (0.0..=1e6).contains(c)) {
-            return Err(value_error(key, "colour and strength must not be negative (and at most 1e6)"));
+            return Err(value_error(key, "a colour has three components, none of them negative"));
         }
-        Ok(Light { rect, color })
     }
+    if !(0.0..=100.0).contains(&scene.backdrop.falloff) {
+        return Err(value_error("backdrop.falloff", "must be from 0 (even) to 100; 1 is the usual"));
+    }
+    if let Exposure::Stops(stops) = scene.look.exposure
+        && !(stops.abs() <= Exposure::MOST)
+    {
+        return Err(value_error("look.exposure", format!("must be \"auto\" or from -{0} to {0} stops", Exposure::MOST)));
+    }
+    if let Some(size) = scene.output.size
+        && !size.iter().all(|n| (1..=65_536).contains(n))
+    {
+        return Err(value_error("output.size", "width and height must be from 1 to 65536 pixels"));
+    }
+    if let Some(tolerance) = scene.output.tolerance
+        && !(1e-9..=1.0).contains(&tolerance)
+    {
+        return Err(value_error("output.tolerance", "must be from 1e-9 to 1"));
+    }
+    Ok(())
 }
 
 /// The known key that is nearest to an unknown one, out of TOML's message.

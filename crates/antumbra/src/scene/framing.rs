@@ -137,7 +137,9 @@ pub(super) fn scene(name: String, title: String, objects: Vec<Object>) -> Scene 
     let light = Light::white(Rect::horizontal(centre + Vec3::new(-1.0, -2.0, 6.0) * radius, 0.25 * radius));
     let view = View { eye, target: centre, fov_deg: angle_over(&bounds, eye, centre, whole) };
     let floor_height = bounds[2].lo() - 0.05 * radius;
-    Scene { name, title, about: None, floor_height, floor_shown: false, view, lights: vec![light], objects }
+    let (sky, backdrop, look, output) = Default::default();
+    let (about, floor_shown, lights) = (None, false, vec![light]);
+    Scene { name, title, about, floor_height, floor_shown, view, lights, objects, sky, backdrop, look, output }
 }
 
 /// The full angle, in degrees, that shows a box and what is in it: all of it where it cuts surfaces off; where they are whole, the

@@ -1,20 +1,26 @@
 //! What is to be drawn: objects, light, camera, colours; the presets and the gallery; and a framing for any formula.
 mod about;
 mod animation;
+mod entry;
 mod file;
 mod framing;
 mod gallery;
 mod light;
+mod look;
 mod object;
 mod parameter;
 mod presets;
 
 pub use about::About;
 pub use animation::{Animation, Course, Motion};
-pub use file::{CameraEntry, ClipEntry, FileError, FloorEntry, LightEntry, Parameter, Ranged, SceneFile, SurfaceEntry};
+pub use entry::{CameraEntry, ClipEntry, ColorBy, FloorEntry, LightEntry, SurfaceEntry, TransformEntry};
+pub use file::{FileError, Parameter, Ranged, SceneFile};
 pub use framing::{Extent, extent};
 pub use gallery::{GALLERY, GalleryEntry, named, names};
 pub use light::Light;
+pub use look::{
+    Automatic, Backdrop, ColorMap, Coloring, Exposure, Field, Finish, Look, Output, Reflection, Sky, Tone,
+};
 pub use object::{Colors, Error, Object};
 pub use parameter::number;
 pub use presets::{PRESETS, Preset, preset};
@@ -41,6 +47,14 @@ pub struct Scene {
     pub view: View,
     /// The area lights; none leaves only the fill light.
     pub lights: Vec<Light>,
+    /// Soft light from everywhere.
+    pub sky: Sky,
+    /// What is behind everything.
+    pub backdrop: Backdrop,
+    /// From light to the picture.
+    pub look: Look,
+    /// Size and tolerance, where nobody says otherwise.
+    pub output: Output,
 }
 
 /// Position and angle of the camera.
@@ -78,6 +92,13 @@ impl Scene {
     #[must_use]
     pub fn around(name: String, title: String, objects: Vec<Object>) -> Self {
         framing::scene(name, title, objects)
+    }
+
+    /// A scene of objects, at least one, with camera and light chosen to fit them.
+    #[must_use]
+    pub fn new(name: impl Into<String>, objects: Vec<Object>) -> Self {
+        let name = name.into();
+        framing::scene(name.clone(), name, objects)
     }
 
     /// Half the largest edge of the box that holds all objects: the scale of the scene.

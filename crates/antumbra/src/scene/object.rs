@@ -2,6 +2,7 @@
 use crate::eval::Inclusion;
 use crate::expr::{self, Formula};
 use crate::geom::Clip;
+use super::{Coloring, Finish};
 use crate::tape::{Tape, TapeError};
 use std::sync::Arc;
 
@@ -30,6 +31,10 @@ pub struct Object {
     pub surface: Arc<dyn Inclusion>,
     /// Colours of its sides.
     pub colors: Colors,
+    /// How it throws back light.
+    pub finish: Finish,
+    /// What decides its colour.
+    pub coloring: Coloring,
     // Together, so that no clip is ever paired with the region of another.
     clip: Clip,
     region: Clip,
@@ -71,7 +76,8 @@ impl Object {
 
     fn of(text: String, simple: &Formula, clip: Clip) -> Result<Self, Error> {
         let tape = Tape::compile(&simple.surface().formula().repeated_squares())?;
-        Ok(Self { text, surface: Arc::new(tape), colors: Colors::default(), clip, region: clip }.with_clip(clip))
+        let (colors, finish, coloring) = Default::default();
+        Ok(Self { text, surface: Arc::new(tape), colors, finish, coloring, clip, region: clip }.with_clip(clip))
     }
 
     /// The same surface in another clip. Searches for a proof that the clip cuts nothing away (a second at most).
