@@ -19,6 +19,7 @@ use antumbra::{
 use anyhow::{Result, anyhow};
 
 use crate::{
+    animation::{self, Film, Output},
     args::{AuditArgs, CompareArgs, PaperArgs, RenderArgs, SpecArgs},
     failure::Usage,
     values,
@@ -35,6 +36,8 @@ pub(crate) struct NamedScene {
     /// A name that can be part of a file name.
     pub(crate) stem: String,
     pub(crate) scene: Arc<Scene>,
+    /// The scene as a file, where it may have parameters.
+    pub(crate) file: Option<SceneFile>,
 }
 
 /// Where JSON goes.
@@ -61,6 +64,8 @@ pub(crate) struct RenderOptions {
     pub(crate) format: Format,
     pub(crate) overlay: Option<Overlay>,
     pub(crate) planes: Option<PathBuf>,
+    /// What moves, if it is to be many pictures.
+    pub(crate) film: Option<Film>,
     pub(crate) json: Option<JsonTarget>,
     /// Time after which to stop.
     pub(crate) budget: Option<Duration>,
@@ -100,10 +105,21 @@ impl RenderOptions {
     /// # Errors
     /// [`Usage`] where the scene, the formula or the extension of a file is not understood.
     pub(crate) fn new(args: RenderArgs) -> Result<Self> {
-        let scene = find_scene(&args.scene)?;
-        let picture = args.output.unwrap_or_else(|| PathBuf::from(format!("{}.png", scene.stem)));
+        let scene = animation::set(find_scene(&args.scene)?, &args.parameters.set)?;
+        let film = Film::new(&args.animation, &scene, args.output.as_deref())?;
+        let picture = args.output.unwrap_or_else(|| {
+            PathBuf::from(format!("{}.{}", scene.stem, if film.is_some() { "gif" } else { "png" }))
+        });
         let depth = if args.bits == "16" { Depth::Sixteen } else { Depth::Eight };
-        let format = format_of(&picture, depth)?;
+        let format = if film.is_some() { Format::Png(depth) } else { format_of(&picture, depth)? };
+        if let Some(film) = &film {
+            if args.planes.is_some() || args.json.is_some() {
+                return Err(Usage("--planes and --json belong to one picture, not to an animation".to_owned()).into());
+            }
+            if depth == Depth::Sixteen && !matches!(film.output, Output::Frames(_)) {
+                return Err(Usage("16 bits fit only into frames of their own (-o frames/%04d.png)".to_owned()).into());
+            }
+        }
         let json = args.json.map(json_target);
         if json == Some(JsonTarget::File(picture.clone())) {
             return Err(Usage(format!("`{}` cannot be both picture and JSON", picture.display())).into());
@@ -118,6 +134,7 @@ impl RenderOptions {
             format,
             overlay: args.overlay,
             planes: args.planes,
+            film,
             json,
             budget: args.budget,
             resume: args.resume,
@@ -139,7 +156,7 @@ impl CompareOptions {
         let Some(&first) = args.methods.first() else {
             return Err(Usage("--methods needs at least one method".to_owned()).into());
         };
-        let scene = find_scene(&args.scene)?;
+        let scene = animation::set(find_scene(&args.scene)?, &args.parameters.set)?;
         let (mut spec, run) = specs(args.spec, first);
         spec.floor |= scene.scene.floor_shown;
         Ok(Self {
@@ -195,7 +212,7 @@ impl AuditOptions {
         let audited = if args.frame.ends_with('/') || (scene::preset(&args.frame).is_none() && folder.is_dir()) {
             Audited::Folder(folder.to_owned())
         } else {
-            let scene = find_scene(&args.frame)?;
+            let scene = animation::set(find_scene(&args.frame)?, &args.parameters.set)?;
             let floor = spec.floor || scene.scene.floor_shown;
             Audited::Scene(scene, RenderSpec { floor, ..spec.clone() })
         };
@@ -272,7 +289,7 @@ pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
     }
     if let Some(scene) = scene::preset(text) {
         let scene = Arc::new(scene.map_err(|e| Usage(explain(&e, text)))?);
-        return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene });
+        return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene, file: None });
     }
     from_formula(text)
 }
@@ -287,8 +304,9 @@ fn from_file(path: &Path) -> Result<NamedScene> {
     let bytes = fs::read(path).map_err(|e| anyhow!("cannot read `{}`: {e}", path.display()))?;
     let text = String::from_utf8(bytes).map_err(|e| refuse(format!("it is not text in UTF-8: {e}")))?;
     let stem = path.file_stem().map_or_else(|| "antumbra".to_owned(), |s| s.to_string_lossy().into_owned());
-    let scene = SceneFile::parse(&text).and_then(|file| file.scene(&stem)).map_err(|e| refuse(e.to_string()))?;
-    Ok(NamedScene { name: path.display().to_string(), stem, scene: Arc::new(scene) })
+    let file = SceneFile::parse(&text).map_err(|e| refuse(e.to_string()))?;
+    let scene = Arc::new(file.scene(&stem).map_err(|e| refuse(e.to_string()))?);
+    Ok(NamedScene { name: path.display().to_string(), stem, scene, file: Some(file) })
 }
 
 fn from_formula(text: &str) -> Result<NamedScene> {
@@ -296,7 +314,8 @@ fn from_formula(text: &str) -> Result<NamedScene> {
         scene::Error::Formula(e) if e.kind() == ErrorKind::UnknownName && looks_like_a_name(text) => no_preset(text),
         _ => Usage(explain(&e, text)),
     })?);
-    Ok(NamedScene { name: text.to_owned(), stem: "antumbra".to_owned(), scene })
+    let file = Some(SceneFile::of_formula(text));
+    Ok(NamedScene { name: text.to_owned(), stem: "antumbra".to_owned(), scene, file })
 }
 
 /// A formula's error with the place in its text, under the word `error: ` that `main` writes.
