@@ -24,8 +24,7 @@ fn main() {
 /// Names and contents of the files in a folder and below, in the order of their names.
 fn hash(folder: &Path, sources: &mut DefaultHasher) {
     let readable = "a folder of sources can be read";
-    let mut paths: Vec<_> =
-        fs::read_dir(folder).expect(readable).map(|entry| entry.expect(readable).path()).collect();
+    let mut paths: Vec<_> = fs::read_dir(folder).expect(readable).map(|entry| entry.expect(readable).path()).collect();
     paths.sort();
     for path in paths {
         if path.is_dir() {

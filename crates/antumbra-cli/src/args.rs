@@ -5,14 +5,14 @@ use std::{path::PathBuf, time::Duration};
 use antumbra::{
     render::{Method, Overlay, RenderSpec},
     report::Exhibit,
-    scene::{ColorBy, Exposure, Finish, Tone},
+    scene::{ColorBy, Course, Exposure, Finish, Tone},
     shadow::Penumbra,
 };
 use clap::{Parser, Subcommand};
 
 use crate::{
     failure::EXIT_CODES,
-    values::{self, Size},
+    values::{self, Assignment, Size, Span},
 };
 
 /// Pictures of implicit surfaces f(x, y, z) = 0 with soft shadows from area lights.
@@ -45,6 +45,10 @@ Examples:
   antumbra render - < formula.txt
   antumbra render chubs --size 4096 --resume       # goes on where an earlier render of it was stopped
   antumbra render rings.toml --size 800x600        # `antumbra scene new rings.toml` writes one to begin with
+  antumbra render rings.toml --set r=0.2
+  antumbra render rings.toml --animate r=0.1:0.6 --loop --frames 120 -o rings.gif
+  antumbra render 't = 0; x^2 + y^2 + z^2 = 1 + sin(3x + t)/4' --animate t=0:2pi --loop=around --frames 48 -o wave.apng
+  antumbra render chubs --turntable --frames 90 -o frames/%04d.png --resume
 
 Planes have row 0 at the top. The shape of verdict, t_lo, t_hi, visible_lo, visible_hi, \
 coverage_lo, coverage_hi, facing, initial_occluded and cost is (height, width) (visible_lo_2 and so on belong to a second light), that of normal and rgb (linear light) is (height, width, 3). t_lo and t_hi are NaN only where the \
@@ -62,7 +66,8 @@ pub(crate) struct RenderArgs {
     #[arg(value_name = "SCENE-OR-FORMULA")]
     pub(crate) scene: String,
 
-    /// Picture to write: .png for looking, .exr for all planes in linear light [default: SCENE.png]
+    /// Picture to write: .png for looking, .exr for all planes in linear light [default: SCENE.png]. An animation: frames
+    /// (frames/%04d.png), or a looping .gif, .apng (or .png), or an .mp4 where ffmpeg is installed [default: SCENE.gif]
     #[arg(short, long, value_name = "FILE")]
     pub(crate) output: Option<PathBuf>,
 
@@ -76,6 +81,9 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) look: LookArgs,
+
+    #[command(flatten)]
+    pub(crate) parameters: ParameterArgs,
 
     #[command(flatten)]
     pub(crate) spec: SpecArgs,
@@ -107,6 +115,45 @@ pub(crate) struct RenderArgs {
     /// No progress bar and no summary
     #[arg(short, long)]
     pub(crate) quiet: bool,
+
+    #[command(flatten)]
+    pub(crate) animation: AnimationArgs,
+}
+
+/// Values of a scene's parameters.
+#[derive(Debug, clap::Args)]
+pub(crate) struct ParameterArgs {
+    /// Give a parameter of the scene another value, as in --set a=0.05 or --set t=pi/3; may be given several times. Parameters
+    /// stand in [parameters] of a scene file, or in a formula as definitions: 'a = 1; x^2 + y^2 + a z^2 = 1'
+    #[arg(long, value_name = "NAME=VALUE", value_parser = values::assignment)]
+    pub(crate) set: Vec<Assignment>,
+}
+
+/// What moves in an animation.
+#[derive(Debug, clap::Args)]
+#[command(next_help_heading = "Animation")]
+pub(crate) struct AnimationArgs {
+    /// Move a parameter over the frames, as in --animate a=0:1; several move together
+    #[arg(long, value_name = "NAME=FROM:TO", value_parser = values::span, requires = "frames")]
+    pub(crate) animate: Vec<Span>,
+
+    /// Let the camera go around its target once, about the vertical axis
+    #[arg(long, requires = "frames")]
+    pub(crate) turntable: bool,
+
+    /// How many frames
+    #[arg(long, value_name = "N", value_parser = values::frames, allow_negative_numbers = true)]
+    pub(crate) frames: Option<usize>,
+
+    /// Make the end meet the beginning: back (there and back again, also without =back) or around (the end is the beginning
+    /// already, as of --animate t=0:2pi, and is left out)
+    #[arg(long = "loop", value_name = "KIND", num_args = 0..=1, require_equals = true, default_missing_value = "back",
+        value_parser = values::course, requires = "animate")]
+    pub(crate) course: Option<Course>,
+
+    /// Frames per second of a moving picture [default: 25]
+    #[arg(long, value_name = "N", value_parser = values::rate, allow_negative_numbers = true, requires = "frames")]
+    pub(crate) fps: Option<f64>,
 }
 
 /// How the picture looks: nothing here is certified, and nothing changes what is.
@@ -204,6 +251,9 @@ pub(crate) struct CompareArgs {
     #[arg(value_name = "SCENE-OR-FORMULA")]
     pub(crate) scene: String,
 
+    #[command(flatten)]
+    pub(crate) parameters: ParameterArgs,
+
     /// Methods, separated by commas
     #[arg(
         long,
@@ -271,6 +321,9 @@ pub(crate) struct AuditArgs {
     /// A folder that `render --planes` wrote, or a preset, a scene file, a formula, or `-`
     #[arg(value_name = "FOLDER-OR-SCENE")]
     pub(crate) frame: String,
+
+    #[command(flatten)]
+    pub(crate) parameters: ParameterArgs,
 
     /// Pixels to look at
     #[arg(long, value_name = "N", default_value = "1000", value_parser = clap::value_parser!(u32).range(1..=10_000_000))]

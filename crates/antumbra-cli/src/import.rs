@@ -29,11 +29,13 @@ pub(crate) fn from_file(path: &Path) -> Result<NamedScene> {
     let stem = path.file_stem().map_or_else(|| "antumbra".to_owned(), |s| s.to_string_lossy().into_owned());
     let scene = import::scene(&text, format, &stem).map_err(|e| {
         Usage(match &e {
-            import::Error::Text(e) => format!("`{name}`, line {}, column {}: {}", e.line(), e.column(), shown(e, &text)),
+            import::Error::Text(e) => {
+                format!("`{name}`, line {}, column {}: {}", e.line(), e.column(), shown(e, &text))
+            }
             import::Error::Scene(e) => format!("`{name}`: {}", explain(e, &text)),
         })
     })?;
-    Ok(NamedScene { name: name.to_string(), stem, scene: Arc::new(scene) })
+    Ok(NamedScene { name: name.to_string(), stem, scene: Arc::new(scene), file: None })
 }
 
 /// The message with its excerpt, without the word that `main` writes.

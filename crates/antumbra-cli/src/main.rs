@@ -3,6 +3,7 @@
 //! The program is thin: arguments ([`args`]) become validated options ([`options`]), a command ([`commands`]) hands
 //! them to the heart and its results to files ([`output`]). Exit codes: [`failure`].
 
+mod animation;
 mod args;
 mod commands;
 mod failure;

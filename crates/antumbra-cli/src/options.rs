@@ -19,7 +19,8 @@ use antumbra::{
 use anyhow::{Result, anyhow};
 
 use crate::{
-    args::{AuditArgs, CompareArgs, GalleryArgs, PaperArgs, LookArgs, RenderArgs, SpecArgs},
+    animation::{self, Film},
+    args::{AuditArgs, CompareArgs, GalleryArgs, LookArgs, PaperArgs, RenderArgs, SpecArgs},
     failure::Usage,
     import, values,
 };
@@ -35,6 +36,8 @@ pub(crate) struct NamedScene {
     /// A name that can be part of a file name.
     pub(crate) stem: String,
     pub(crate) scene: Arc<Scene>,
+    /// The scene as a file, where it may have parameters.
+    pub(crate) file: Option<SceneFile>,
 }
 
 /// Where JSON goes.
@@ -55,12 +58,15 @@ pub(crate) enum Format {
 #[derive(Debug)]
 pub(crate) struct RenderOptions {
     pub(crate) scene: NamedScene,
+    pub(crate) look: LookArgs,
     pub(crate) spec: RenderSpec,
     pub(crate) run: RunSpec,
     pub(crate) picture: PathBuf,
     pub(crate) format: Format,
     pub(crate) overlay: Option<Overlay>,
     pub(crate) planes: Option<PathBuf>,
+    /// What moves, if it is to be many pictures.
+    pub(crate) film: Option<Film>,
     pub(crate) json: Option<JsonTarget>,
     /// Time after which to stop.
     pub(crate) budget: Option<Duration>,
@@ -100,11 +106,22 @@ impl RenderOptions {
     /// # Errors
     /// [`Usage`] where the scene, the formula or the extension of a file is not understood.
     pub(crate) fn new(args: RenderArgs) -> Result<Self> {
-        let mut scene = find_scene(&args.scene)?;
-        dress(Arc::make_mut(&mut scene.scene), &args.look);
-        let picture = args.output.unwrap_or_else(|| PathBuf::from(format!("{}.png", scene.stem)));
+        let mut scene = animation::set(find_scene(&args.scene)?, &args.parameters.set)?;
+        args.look.dress(Arc::make_mut(&mut scene.scene));
+        let film = Film::new(&args.animation, &scene, args.output.as_deref())?;
+        let picture = args
+            .output
+            .unwrap_or_else(|| PathBuf::from(format!("{}.{}", scene.stem, if film.is_some() { "gif" } else { "png" })));
         let depth = if args.bits == "16" { Depth::Sixteen } else { Depth::Eight };
-        let format = format_of(&picture, depth)?;
+        let format = if film.is_some() { Format::Png(depth) } else { format_of(&picture, depth)? };
+        if let Some(film) = &film {
+            if args.planes.is_some() || args.json.is_some() {
+                return Err(Usage("--planes and --json belong to one picture, not to an animation".to_owned()).into());
+            }
+            if depth == Depth::Sixteen && !matches!(film.output, animation::Output::Frames(_)) {
+                return Err(Usage("16 bits fit only into frames of their own (-o frames/%04d.png)".to_owned()).into());
+            }
+        }
         let json = args.json.map(json_target);
         if json == Some(JsonTarget::File(picture.clone())) {
             return Err(Usage(format!("`{}` cannot be both picture and JSON", picture.display())).into());
@@ -113,12 +130,14 @@ impl RenderOptions {
         spec.floor |= scene.scene.floor_shown;
         Ok(Self {
             scene,
+            look: args.look,
             spec,
             run,
             picture,
             format,
             overlay: args.overlay,
             planes: args.planes,
+            film,
             json,
             budget: args.budget,
             resume: args.resume,
@@ -140,7 +159,7 @@ impl CompareOptions {
         let Some(&first) = args.methods.first() else {
             return Err(Usage("--methods needs at least one method".to_owned()).into());
         };
-        let scene = find_scene(&args.scene)?;
+        let scene = animation::set(find_scene(&args.scene)?, &args.parameters.set)?;
         let (mut spec, run) = specs(args.spec, first, scene.scene.output);
         spec.floor |= scene.scene.floor_shown;
         Ok(Self {
@@ -192,11 +211,12 @@ impl AuditOptions {
     pub(crate) fn new(args: AuditArgs) -> Result<Self> {
         let folder = Path::new(&args.frame);
         // No formula is the name of a folder, but for very odd folders; a preset may be.
-        let audited = if args.frame.ends_with('/') || (!scene::names().any(|name| name == args.frame) && folder.is_dir()) {
-            None
-        } else {
-            Some(find_scene(&args.frame)?)
-        };
+        let audited =
+            if args.frame.ends_with('/') || (!scene::names().any(|name| name == args.frame) && folder.is_dir()) {
+                None
+            } else {
+                Some(animation::set(find_scene(&args.frame)?, &args.parameters.set)?)
+            };
         let wanted = audited.as_ref().map_or_else(Output::default, |scene| scene.scene.output);
         let (mut spec, run) = specs(args.spec, Method::Certified, wanted);
         let seed = spec.seed;
@@ -208,15 +228,7 @@ impl AuditOptions {
             }
         };
         let json = args.json.map(json_target);
-        Ok(Self {
-            audited,
-            pixels: args.pixels as usize,
-            seed,
-            run,
-            json,
-            budget: args.budget,
-            quiet: args.quiet,
-        })
+        Ok(Self { audited, pixels: args.pixels as usize, seed, run, json, budget: args.budget, quiet: args.quiet })
     }
 }
 
@@ -270,16 +282,18 @@ pub(crate) fn thread_count(run: &RunSpec) -> usize {
     run.threads.or_else(|| thread::available_parallelism().ok().map(Into::into)).unwrap_or(1)
 }
 
-/// What the command line says of the look holds for all surfaces of the scene.
-fn dress(scene: &mut Scene, args: &LookArgs) {
-    let look = &mut scene.look;
-    look.tone = args.tone.unwrap_or(look.tone);
-    look.exposure = args.exposure.unwrap_or(look.exposure);
-    look.outline |= args.outline;
-    for object in &mut scene.objects {
-        object.finish = args.finish.unwrap_or(object.finish);
-        if let Some(by) = args.color_by {
-            object.coloring = by.coloring();
+impl LookArgs {
+    /// What the command line says of the look holds for all surfaces of a scene.
+    pub(crate) fn dress(&self, scene: &mut Scene) {
+        let look = &mut scene.look;
+        look.tone = self.tone.unwrap_or(look.tone);
+        look.exposure = self.exposure.unwrap_or(look.exposure);
+        look.outline |= self.outline;
+        for object in &mut scene.objects {
+            object.finish = self.finish.unwrap_or(object.finish);
+            if let Some(by) = self.color_by {
+                object.coloring = by.coloring();
+            }
         }
     }
 }
@@ -345,7 +359,7 @@ pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
     }
     if let Some(scene) = scene::named(text) {
         let scene = Arc::new(scene.map_err(|e| Usage(e.to_string()))?);
-        return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene });
+        return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene, file: None });
     }
     // A file whose name says nothing is read only where there is no other way to understand the words.
     from_formula(text).or_else(|e| if Path::new(text).is_file() { import::from_file(Path::new(text)) } else { Err(e) })
@@ -361,8 +375,9 @@ fn from_file(path: &Path) -> Result<NamedScene> {
     let bytes = fs::read(path).map_err(|e| anyhow!("cannot read `{}`: {e}", path.display()))?;
     let text = String::from_utf8(bytes).map_err(|e| refuse(format!("it is not text in UTF-8: {e}")))?;
     let stem = path.file_stem().map_or_else(|| "antumbra".to_owned(), |s| s.to_string_lossy().into_owned());
-    let scene = SceneFile::parse(&text).and_then(|file| file.scene(&stem)).map_err(|e| refuse(e.to_string()))?;
-    Ok(NamedScene { name: path.display().to_string(), stem, scene: Arc::new(scene) })
+    let file = SceneFile::parse(&text).map_err(|e| refuse(e.to_string()))?;
+    let scene = Arc::new(file.scene(&stem).map_err(|e| refuse(e.to_string()))?);
+    Ok(NamedScene { name: path.display().to_string(), stem, scene, file: Some(file) })
 }
 
 fn from_formula(text: &str) -> Result<NamedScene> {
@@ -370,7 +385,8 @@ fn from_formula(text: &str) -> Result<NamedScene> {
         scene::Error::Formula(e) if e.kind() == ErrorKind::UnknownName && looks_like_a_name(text) => no_preset(text),
         _ => Usage(explain(&e, text)),
     })?);
-    Ok(NamedScene { name: text.to_owned(), stem: "antumbra".to_owned(), scene })
+    let file = Some(SceneFile::of_formula(text));
+    Ok(NamedScene { name: text.to_owned(), stem: "antumbra".to_owned(), scene, file })
 }
 
 /// A formula's error with the place in its text, under the word `error: ` that `main` writes.

@@ -1,6 +1,6 @@
 //! The progress bar: on stderr, and only where a person is looking.
 
-use std::io::IsTerminal;
+use std::{io::IsTerminal, time::Duration};
 
 use antumbra::render::Renderer;
 use indicatif::{HumanCount, HumanDuration, ProgressBar, ProgressDrawTarget, ProgressStyle};
@@ -36,6 +36,15 @@ impl Progress {
         let left = renderer.remaining().map_or(String::new(), |time| format!(" (left: about {})", HumanDuration(time)));
         self.0.set_position((renderer.progress() * STEPS as f64) as u64);
         self.0.set_message(format!("  {what} {} of {}{left}", HumanCount(done), HumanCount(all)));
+    }
+}
+
+impl Progress {
+    /// Shows which frame of an animation is being drawn, how much of all is done, and how long the rest may take.
+    pub(crate) fn show_frame(&self, k: usize, n: usize, done: f64, left: Option<Duration>) {
+        let left = left.map_or(String::new(), |time| format!(" (left: about {})", HumanDuration(time)));
+        self.0.set_position((done * STEPS as f64) as u64);
+        self.0.set_message(format!("  {} of {n}{left}", k + 1));
     }
 }
 

@@ -88,6 +88,28 @@ impl Unfinished {
         Ok(Renderer::new(Arc::clone(scene), spec.clone(), run)?)
     }
 
+    /// The same for a frame of an animation, in which a state of something else is no reason to stop.
+    ///
+    /// # Errors
+    /// Where no renderer can be had.
+    pub(crate) fn begin_frame(
+        &mut self,
+        scene: &Arc<Scene>,
+        spec: &RenderSpec,
+        run: RunSpec,
+        resume: bool,
+    ) -> Result<Renderer> {
+        if let Some(file) = File::open(&self.state).ok().filter(|_| resume) {
+            let found = Renderer::resume(Arc::clone(scene), spec.clone(), run, &mut BufReader::new(file));
+            self.own = true;
+            match found {
+                Ok(renderer) => return Ok(renderer),
+                Err(e) => remark(&format!("`{}` is not used: {e}", self.state.display())),
+            }
+        }
+        Ok(Renderer::new(Arc::clone(scene), spec.clone(), run)?)
+    }
+
     /// Saves if it is time. That it cannot be saved is said, and no reason to stop.
     pub(crate) fn save_now_and_then(&mut self, renderer: &Renderer) {
         if !self.possible || self.saved.elapsed() < self.every {
@@ -129,6 +151,19 @@ impl Unfinished {
             self.state.display(),
             self.preview.display()
         ))
+    }
+
+    /// Saves a frame of an animation that stops here, and says so.
+    ///
+    /// # Errors
+    /// Where the state cannot be written.
+    pub(crate) fn stop_frame(&mut self, renderer: &Renderer) -> Result<String> {
+        let share = 100.0 * renderer.progress();
+        if !self.possible || share == 0.0 {
+            return Ok(String::new());
+        }
+        self.save(renderer)?;
+        Ok(format!(", and about {share:.0} % of the next is kept in `{}`", self.state.display()))
     }
 
     /// The picture is there: what this render left on the way goes.

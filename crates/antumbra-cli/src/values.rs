@@ -5,7 +5,7 @@ use std::time::Duration;
 use antumbra::{
     render::{Method, Overlay},
     report::Exhibit,
-    scene::{ColorBy, Exposure, Finish, Tone},
+    scene::{self, Animation, ColorBy, Course, Exposure, Finish, Tone},
     shadow::Penumbra,
 };
 
@@ -20,6 +20,70 @@ pub(crate) struct Size {
 const MAX_SIDE: usize = 65_535;
 /// Pixels altogether: at about 100 bytes each for all planes this is 26 GB.
 const MAX_PIXELS: usize = 1 << 28;
+
+/// A value for a parameter.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Assignment {
+    pub(crate) name: String,
+    pub(crate) value: f64,
+}
+
+/// A parameter that moves.
+#[derive(Clone, Debug, PartialEq)]
+pub(crate) struct Span {
+    pub(crate) name: String,
+    pub(crate) from: f64,
+    pub(crate) to: f64,
+}
+
+/// `a=0.05`: a name, and a number or what the formula language makes one of.
+pub(crate) fn assignment(text: &str) -> Result<Assignment, String> {
+    let form = || "give a name and a value, such as a=0.05".to_owned();
+    let (name, value) = text.split_once('=').ok_or_else(form)?;
+    let name = name.trim();
+    if name.is_empty() || value.trim().is_empty() {
+        return Err(form());
+    }
+    Ok(Assignment { name: name.to_owned(), value: scene::number(value)? })
+}
+
+/// `a=0:1`.
+pub(crate) fn span(text: &str) -> Result<Span, String> {
+    let form = || "give a name and two values, such as a=0:1".to_owned();
+    let (name, values) = text.split_once('=').ok_or_else(form)?;
+    let (from, to) = values.split_once(':').ok_or_else(form)?;
+    let name = name.trim();
+    if name.is_empty() || from.trim().is_empty() || to.trim().is_empty() {
+        return Err(form());
+    }
+    let (from, to) = (scene::number(from)?, scene::number(to)?);
+    if from == to {
+        return Err(format!("both ends are {from}: nothing would move; --set gives a parameter one value"));
+    }
+    Ok(Span { name: name.to_owned(), from, to })
+}
+
+/// Frames of an animation.
+pub(crate) fn frames(text: &str) -> Result<usize, String> {
+    whole(text, 1, Animation::MOST)
+}
+
+/// Frames per second.
+pub(crate) fn rate(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(rate) if (0.01..=100.0).contains(&rate) => Ok(rate),
+        _ => Err("give a number from 0.01 to 100".to_owned()),
+    }
+}
+
+/// How an animation loops.
+pub(crate) fn course(text: &str) -> Result<Course, String> {
+    match text {
+        "back" => Ok(Course::Back),
+        "around" => Ok(Course::Around),
+        _ => Err("it is `back` (there and back again) or `around` (the end is the beginning)".to_owned()),
+    }
+}
 
 /// `512` (a square) or `800x600`.
 pub(crate) fn size(text: &str) -> Result<Size, String> {

@@ -14,6 +14,7 @@ impl<'de> Deserialize<'de> for Interval {
         if (lo, hi) == (f64::INFINITY, f64::NEG_INFINITY) {
             return Ok(Self::EMPTY);
         }
-        Self::try_new(lo, hi).ok_or_else(|| D::Error::custom(format!("{lo} and {hi} are not the bounds of an interval")))
+        Self::try_new(lo, hi)
+            .ok_or_else(|| D::Error::custom(format!("{lo} and {hi} are not the bounds of an interval")))
     }
 }

@@ -15,7 +15,8 @@ fn scene(name: &str) -> Arc<Scene> {
 
 fn spec(method: &str) -> RenderSpec {
     let method = Method::from_name(method).unwrap();
-    RenderSpec { width: 136, height: 104, method, floor: true, ..RenderSpec::default() }
+    // 15 tiles, some of them cut.
+    RenderSpec { width: 136, height: 72, method, grid: 16, sub_beams: 3, floor: true, ..RenderSpec::default() }
 }
 
 fn saved(renderer: &Renderer) -> Vec<u8> {
@@ -41,8 +42,7 @@ fn result(renderer: &Renderer) -> (Vec<Vec<u8>>, Stats) {
 
 #[test]
 fn a_render_resumed_at_every_point_is_the_render_at_one_go() {
-    for (name, method) in [("links", "certified"), ("orthocircle", "certified"), ("chubs", "paper"), ("kusner", "rays-mc")]
-    {
+    for (name, method) in [("links", "certified"), ("chubs", "paper"), ("kusner", "rays-mc")] {
         let spec = spec(method);
         let mut whole = Renderer::new(scene(name), spec.clone(), ONE).unwrap();
         while !whole.refine(Duration::MAX) {}
@@ -59,7 +59,7 @@ fn a_render_resumed_at_every_point_is_the_render_at_one_go() {
             }
         }
         assert!(result(&chain) == wanted, "{name}, {method}: step by step");
-        assert!(states.len() >= 12, "{}", states.len());
+        assert!(states.len() >= 9, "{}", states.len());
         // ... and from every point to the end, with another number of threads.
         for state in states.iter().step_by(3) {
             let mut rest = resumed(name, &spec, RunSpec { threads: Some(3) }, state).unwrap();

@@ -53,7 +53,8 @@ pub(super) fn run(options: &GalleryOptions) -> Result<()> {
     }
     // Every file that comes last is tried first; one that exists stays as it is until then.
     let folder = Folder::open(&options.folder)?;
-    let mut files = [PAGE, TABLE, COUNTS, SHEET].map(|name| folder.sink(name)).into_iter().collect::<Result<Vec<_>>>()?;
+    let mut files =
+        [PAGE, TABLE, COUNTS, SHEET].map(|name| folder.sink(name)).into_iter().collect::<Result<Vec<_>>>()?;
 
     let (mut sheet, mut drawn, mut failed) = (Sheet::default(), vec![], vec![]);
     for (k, entry) in options.entries.iter().enumerate() {
@@ -86,7 +87,11 @@ pub(super) fn run(options: &GalleryOptions) -> Result<()> {
     }
     finish(files)?;
     if !options.quiet {
-        remark(&format!("wrote {} pictures, {PAGE}, {TABLE}, {COUNTS} and {SHEET} in {}", drawn.len(), folder.path().display()));
+        remark(&format!(
+            "wrote {} pictures, {PAGE}, {TABLE}, {COUNTS} and {SHEET} in {}",
+            drawn.len(),
+            folder.path().display()
+        ));
     }
     if !failed.is_empty() {
         bail!("{} of {} surfaces failed: {}", failed.len(), options.entries.len(), failed.join(", "));
@@ -146,18 +151,26 @@ fn counts(stats: &Stats) -> String {
 /// The counts of all, as a table.
 fn report(drawn: &[Drawn]) -> Report {
     let header = [
-        "surface", "proved hits", "proved edges", "proved empty", "undecided", "of these touching", "open brackets",
+        "surface",
+        "proved hits",
+        "proved edges",
+        "proved empty",
+        "undecided",
+        "of these touching",
+        "open brackets",
         "seconds",
     ];
     let row = |d: &Drawn| {
         let s = &d.stats;
-        let counts = [s.proved_hit, s.proved_partly, s.proved_empty, s.undecided(), s.undecided_touching, s.brackets_open];
+        let counts =
+            [s.proved_hit, s.proved_partly, s.proved_empty, s.undecided(), s.undecided_touching, s.brackets_open];
         let mut row = vec![d.name.to_owned()];
         row.extend(counts.map(|n| HumanCount(n).to_string()));
         row.push(format!("{:.1}", s.seconds));
         row
     };
-    let size = drawn.first().map_or_else(String::new, |d| format!("{} x {} pixels each, ", d.stats.width, d.stats.height));
+    let size =
+        drawn.first().map_or_else(String::new, |d| format!("{} x {} pixels each, ", d.stats.width, d.stats.height));
     let threads = drawn.first().map_or(1, |d| d.stats.threads);
     Report {
         title: "Gallery".to_owned(),

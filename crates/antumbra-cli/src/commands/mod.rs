@@ -1,5 +1,6 @@
 //! The commands: validated options in, files and text out.
 
+mod animate;
 mod audit;
 mod compare;
 mod gallery;
@@ -59,17 +60,19 @@ enum End {
     Asked,
 }
 
-/// Renders under a progress bar until the picture is finished, the time is over or the renderer's flag says stop; looks in
+/// Renders, under a progress bar if there is one, until the picture is finished, the time is over or the renderer's flag says stop; looks in
 /// at `between` now and then.
 fn pursue(
     renderer: &mut Renderer,
     deadline: Option<Instant>,
-    progress: &Progress,
+    progress: Option<&Progress>,
     between: &mut dyn FnMut(&Renderer),
 ) -> End {
     let flag = renderer.stop_flag();
     while !renderer.refine(SLICE) {
-        progress.show(renderer);
+        if let Some(progress) = progress {
+            progress.show(renderer);
+        }
         if flag.load(Ordering::Relaxed) {
             return End::Asked;
         }
@@ -86,7 +89,7 @@ fn pursue(
 /// # Errors
 /// Where that takes longer than the budget.
 fn complete(renderer: &mut Renderer, budget: Option<Duration>, progress: &Progress) -> Result<()> {
-    match pursue(renderer, deadline(budget), progress, &mut |_| {}) {
+    match pursue(renderer, deadline(budget), Some(progress), &mut |_| {}) {
         End::Done => Ok(()),
         End::Budget | End::Asked => {
             bail!(spent(budget, &format!("about {:.0} % is done; nothing was written", 100.0 * renderer.progress())))

@@ -9,7 +9,8 @@ use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::{
-    End, deadline, json_sink, json_text, frame_bytes, picture_bytes, print_json, pursue, record::FrameRecord, spent,
+    End, animate, deadline, frame_bytes, json_sink, json_text, picture_bytes, print_json, pursue, record::FrameRecord,
+    spent,
 };
 use crate::{
     failure::Interrupted,
@@ -42,6 +43,9 @@ struct Classes {
 
 /// Renders and writes: every path is tried before the work begins, every file appears after it has ended.
 pub(super) fn run(options: &RenderOptions) -> Result<()> {
+    if let Some(film) = &options.film {
+        return animate::run(options, film);
+    }
     // The folder first: the picture may go into it, and it goes away last.
     let folder = options.planes.as_deref().map(Folder::open).transpose()?;
     let mut picture = Sink::open(&options.picture)?;
@@ -51,7 +55,8 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let mut renderer = unfinished.begin(&options.scene.scene, &options.spec, options.run, options.resume)?;
     let asking = Asking::first(renderer.stop_flag());
     let progress = Progress::new(options.quiet, options.spec.method.name());
-    let end = pursue(&mut renderer, deadline(options.budget), &progress, &mut |r| unfinished.save_now_and_then(r));
+    let end =
+        pursue(&mut renderer, deadline(options.budget), Some(&progress), &mut |r| unfinished.save_now_and_then(r));
     drop((progress, asking));
     match end {
         End::Done => {}

@@ -31,7 +31,8 @@ fn two_surfaces_become_pictures_and_a_page() {
     let page = fs::read_to_string(bench.file("g/index.html")).unwrap();
     assert_eq!(page.matches("src=\"data:image/png;base64,").count(), 2);
     assert!(!page.contains("http"), "the page loads something");
-    for words in ["Cayley cubic", "Arthur Cayley, 1869", "no cubic", "prefers-color-scheme", "viewport", "proved empty"] {
+    for words in ["Cayley cubic", "Arthur Cayley, 1869", "no cubic", "prefers-color-scheme", "viewport", "proved empty"]
+    {
         assert!(page.to_lowercase().contains(&words.to_lowercase()), "{words}");
     }
     let size = |name: &str| {

@@ -1,5 +1,6 @@
 //! The program as its users meet it: one file a subject, each test in an empty folder of its own.
 
+mod animation;
 mod audit;
 mod bad_input;
 mod bench;

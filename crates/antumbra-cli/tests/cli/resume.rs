@@ -98,7 +98,8 @@ fn ctrl_c_keeps_what_is_done() {
         .collect();
     names.sort();
     assert_eq!(names, ["p.png.state", "p.unfinished.png"]);
-    let preview = png::Decoder::new(std::io::BufReader::new(fs::File::open(bench.file("stopped/p.unfinished.png")).unwrap()));
+    let preview =
+        png::Decoder::new(std::io::BufReader::new(fs::File::open(bench.file("stopped/p.unfinished.png")).unwrap()));
     assert_eq!(preview.read_info().unwrap().info().size(), (200, 200));
     run(&bench, "stopped", &["--resume"]).success().stderr(contains("going on with `stopped/p.png.state`"));
     assert!(result(&bench, "whole") == result(&bench, "stopped"));

@@ -76,12 +76,7 @@ impl Still {
 /// Keyword of the note: one of those that the PNG standard names.
 const NOTE: &str = "Comment";
 
-fn encode(
-    plane: &Plane,
-    depth: Depth,
-    note: Option<&str>,
-    light: impl Iterator<Item = f64>,
-) -> Result<Vec<u8>, Error> {
+fn encode(plane: &Plane, depth: Depth, note: Option<&str>, light: impl Iterator<Item = f64>) -> Result<Vec<u8>, Error> {
     let columns = plane.columns();
     let place = |i: usize| (i / 3 / columns, i / 3 % columns, i % 3);
     let mut codes = Vec::with_capacity(plane.samples().len() * if depth == Depth::Eight { 1 } else { 2 });

@@ -108,7 +108,11 @@ pub fn scene(text: &str, format: Format, name: &str) -> Result<Scene, Error> {
         Format::MathMod => mathmod::read(text)?,
         Format::Formula => Model {
             title: None,
-            surfaces: vec![Part { formula: written(text, &Formula::parse_as_written(text)?, 0)?, clip: None, open: None }],
+            surfaces: vec![Part {
+                formula: written(text, &Formula::parse_as_written(text)?, 0)?,
+                clip: None,
+                open: None,
+            }],
         },
     };
     let title = model.title.unwrap_or_else(|| name.to_owned());

@@ -145,7 +145,8 @@ impl<'a> Reader<'a> {
             return Err(self.no_function(word, at.clone()));
         }
         // Words after the operands are no part of the format, but comments are common enough.
-        let operands = &operands[..operands.iter().position(|(word, _)| word.starts_with('#')).unwrap_or(operands.len())];
+        let operands =
+            &operands[..operands.iter().position(|(word, _)| word.starts_with('#')).unwrap_or(operands.len())];
         if operands.len() != count {
             let end = operands.last().map_or(at.end, |(_, last)| last.end);
             let place = if operands.len() > count { operands[count].1.clone() } else { end..end };
@@ -170,7 +171,8 @@ impl<'a> Reader<'a> {
         };
         self.steps += 1 + self.graph.exact(value).map_or(0, cost_of_constant);
         if self.graph.nodes().len() > MAX_NODES || self.steps > MAX_STEPS {
-            let message = format!("more than {MAX_NODES} operations, or constants that take too long to compute exactly");
+            let message =
+                format!("more than {MAX_NODES} operations, or constants that take too long to compute exactly");
             return Err(self.error(ErrorKind::TooLarge, at.clone(), message));
         }
         self.names.insert(name, value);

@@ -154,7 +154,8 @@ impl Book {
     /// The colours that depend on neighbouring pixels, when those are known: of what may be a surface, and of edges.
     pub(super) fn finish_colors(&mut self, task: &Task) {
         for index in 0..self.hits.len() {
-            if let Some(hit) = self.hits[index].filter(|hit| task.method == Method::Certified && hit.receiver.is_none()) {
+            if let Some(hit) = self.hits[index].filter(|hit| task.method == Method::Certified && hit.receiver.is_none())
+            {
                 self.frame.rgb[index] = self.color(task, index, Some(&hit), None);
             }
         }

@@ -67,7 +67,11 @@ mod tests {
 
     #[test]
     fn the_horizon_cuts_and_the_back_is_dark() {
-        let wall = Rect { center: Vec3::new(2.0, 0.0, 0.0), edge_u: Vec3::new(0.0, 1.0, 0.0), edge_v: Vec3::new(0.0, 0.0, 1.0) };
+        let wall = Rect {
+            center: Vec3::new(2.0, 0.0, 0.0),
+            edge_u: Vec3::new(0.0, 1.0, 0.0),
+            edge_v: Vec3::new(0.0, 0.0, 1.0),
+        };
         let got = irradiance(Vec3::default(), UP, &wall);
         let upper = Rect { center: Vec3::new(2.0, 0.0, 0.5), edge_v: Vec3::new(0.0, 0.0, 0.5), ..wall };
         let half = irradiance(Vec3::default(), UP, &upper);

@@ -1,7 +1,7 @@
 //! A render that was stopped, as bytes: what it is of, everything the [`Book`] knows, and a checksum.
+use super::RenderSpec;
 use super::book::Book;
 use super::renderer::Stage;
-use super::RenderSpec;
 use crate::eval::Workspace;
 use crate::geom::Box3;
 use crate::scene::{Object, Scene, SceneFile};

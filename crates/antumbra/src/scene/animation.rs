@@ -107,7 +107,8 @@ impl Animation {
         let framed = file.camera.is_some();
         let mut whole = true;
         if automatic {
-            let scenes: Vec<Scene> = (0..frames).into_par_iter().map(|k| scene_of(&file, k)).collect::<Result<_, _>>()?;
+            let scenes: Vec<Scene> =
+                (0..frames).into_par_iter().map(|k| scene_of(&file, k)).collect::<Result<_, _>>()?;
             for (k, entry) in file.surface.iter_mut().enumerate().filter(|(_, entry)| entry.clip.is_none()) {
                 let clips = scenes.iter().map(|scene| scene.objects[k].clip());
                 let hull = clips.map(|clip| clip.bounds()).reduce(Box3::hull);
@@ -221,7 +222,10 @@ mod tests {
         let scenes: Vec<Scene> = (0..7).map(|k| animation.frame(k).unwrap()).collect();
         for scene in &scenes {
             assert_eq!((scene.view, scene.lights[0]), (scenes[0].view, scenes[0].lights[0]));
-            assert_eq!((scene.objects[0].clip(), scene.floor_height), (scenes[0].objects[0].clip(), scenes[0].floor_height));
+            assert_eq!(
+                (scene.objects[0].clip(), scene.floor_height),
+                (scenes[0].objects[0].clip(), scenes[0].floor_height)
+            );
         }
         // The clip holds the largest.
         let bounds = scenes[0].objects[0].clip().bounds();

@@ -182,7 +182,8 @@ impl SurfaceEntry {
             None => Clip::Box(extent(object.surface.as_ref()).clip()),
         };
         let mut object = object.with_clip(clip);
-        let sides = [("outside", self.outside, &mut object.colors.outside), ("inside", self.inside, &mut object.colors.inside)];
+        let sides =
+            [("outside", self.outside, &mut object.colors.outside), ("inside", self.inside, &mut object.colors.inside)];
         for (part, given, color) in sides {
             if let Some(given) = given {
                 if !given.iter().all(|c| (0.0..=1.0).contains(c)) {
@@ -218,10 +219,8 @@ impl SurfaceEntry {
         if self.transform.is_none() && !caps {
             return Ok(text.to_owned());
         }
-        let [definitions, mut solid] = Formula::split(text).map_err(|e| FileError::Formula {
-            key: named("formula"),
-            message: e.render(text),
-        })?;
+        let [definitions, mut solid] =
+            Formula::split(text).map_err(|e| FileError::Formula { key: named("formula"), message: e.render(text) })?;
         if let Some(TransformEntry { scale, rotate, translate }) = self.transform {
             if let Some(s) = scale {
                 finite(&named("transform.scale"), &[s])?;

@@ -1,5 +1,5 @@
 //! Scenes as text: TOML files, read with errors that name line and key, and written so that they can be read again.
-use super::entry::{CameraEntry, ColorBy, ClipEntry, FloorEntry, LightEntry, SurfaceEntry};
+use super::entry::{CameraEntry, ClipEntry, ColorBy, FloorEntry, LightEntry, SurfaceEntry};
 use super::{About, Backdrop, Colors, Exposure, Light, Look, Object, Output, Scene, Sky, View, framing};
 use crate::geom::Clip;
 use serde::{Deserialize, Serialize};
@@ -258,7 +258,8 @@ impl SceneFile {
 
 /// Whether colours and numbers that only the eye sees are such.
 fn check_look(scene: &Scene) -> Result<(), FileError> {
-    let colors = [("sky.above", scene.sky.above), ("sky.below", scene.sky.below), ("backdrop.color", scene.backdrop.color)];
+    let colors =
+        [("sky.above", scene.sky.above), ("sky.below", scene.sky.below), ("backdrop.color", scene.backdrop.color)];
     for (key, color) in colors {
         if !color.iter().all(|c| (0.0..=1e6).contains(c)) {
             return Err(value_error(key, "a colour has three components, none of them negative"));
@@ -270,7 +271,10 @@ fn check_look(scene: &Scene) -> Result<(), FileError> {
     if let Exposure::Stops(stops) = scene.look.exposure
         && !(stops.abs() <= Exposure::MOST)
     {
-        return Err(value_error("look.exposure", format!("must be \"auto\" or from -{0} to {0} stops", Exposure::MOST)));
+        return Err(value_error(
+            "look.exposure",
+            format!("must be \"auto\" or from -{0} to {0} stops", Exposure::MOST),
+        ));
     }
     if let Some(size) = scene.output.size
         && !size.iter().all(|n| (1..=65_536).contains(n))

@@ -18,9 +18,7 @@ pub use file::{FileError, Parameter, Ranged, SceneFile};
 pub use framing::{Extent, extent};
 pub use gallery::{GALLERY, GalleryEntry, named, names};
 pub use light::Light;
-pub use look::{
-    Automatic, Backdrop, ColorMap, Coloring, Exposure, Field, Finish, Look, Output, Reflection, Sky, Tone,
-};
+pub use look::{Automatic, Backdrop, ColorMap, Coloring, Exposure, Field, Finish, Look, Output, Reflection, Sky, Tone};
 pub use object::{Colors, Error, Object};
 pub use parameter::number;
 pub use presets::{PRESETS, Preset, preset};

@@ -1,8 +1,8 @@
 //! A surface of a scene.
+use super::{Coloring, Finish};
 use crate::eval::Inclusion;
 use crate::expr::{self, Formula};
 use crate::geom::Clip;
-use super::{Coloring, Finish};
 use crate::tape::{Tape, TapeError};
 use std::sync::Arc;
 

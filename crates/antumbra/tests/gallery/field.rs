@@ -51,7 +51,11 @@ impl Field {
         let size = 1.0 + at.length();
         // Near singular points the slope vanishes, and the value with a higher power.
         let curved = self.hessian(at).iter().flatten().fold(0.0_f64, |m, h| m.max(h.abs()));
-        assert!(value.abs() <= 1e-9 * size * (slope + size * curved), "{}: {value} at {at:?}, slope {slope}", self.name);
+        assert!(
+            value.abs() <= 1e-9 * size * (slope + size * curved),
+            "{}: {value} at {at:?}, slope {slope}",
+            self.name
+        );
     }
 
     /// A point of the surface near `start`, by Newton's method along the gradient.

@@ -83,7 +83,8 @@ fn the_trefoil_has_a_trefoil_in_its_middle() {
     let b = a.powf(1.5);
     for k in 0..100 {
         let t = TAU * f64::from(k) / 100.0;
-        let p = Vec3(stereographic([a * (2.0 * t).cos(), a * (2.0 * t).sin(), b * (3.0 * t).cos(), b * (3.0 * t).sin()]));
+        let p =
+            Vec3(stereographic([a * (2.0 * t).cos(), a * (2.0 * t).sin(), b * (3.0 * t).cos(), b * (3.0 * t).sin()]));
         let share = f.value(p) / (p.dot(p) + 1.0).powi(6);
         assert!((share + 0.09).abs() < 1e-9, "{share} at {p:?}");
     }
@@ -137,9 +138,7 @@ fn permutations(of: &[usize]) -> Vec<Vec<usize>> {
         return vec![vec![]];
     }
     let without = |k: usize| of.iter().copied().filter(move |x| *x != k).collect::<Vec<_>>();
-    of.iter()
-        .flat_map(|&k| permutations(&without(k)).into_iter().map(move |rest| [vec![k], rest].concat()))
-        .collect()
+    of.iter().flat_map(|&k| permutations(&without(k)).into_iter().map(move |rest| [vec![k], rest].concat())).collect()
 }
 
 /// Curves along which the gradient vanishes, as the histories say.

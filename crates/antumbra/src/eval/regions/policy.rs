@@ -16,10 +16,7 @@ pub(super) const OVERLAP: f64 = 0.5;
 /// Operations that a smaller region may decide.
 fn choices(tape: &Tape) -> usize {
     let choice = |op: Op| {
-        matches!(
-            op,
-            Op::Binary(Binary::Min | Binary::Max) | Op::Unary(Unary::Abs | Unary::Sign | Unary::Floor)
-        )
+        matches!(op, Op::Binary(Binary::Min | Binary::Max) | Op::Unary(Unary::Abs | Unary::Sign | Unary::Floor))
     };
     tape.clauses().iter().filter(|clause| choice(clause.op)).count()
 }
