@@ -160,7 +160,7 @@ pub(crate) struct AnimationArgs {
 #[derive(Debug, clap::Args)]
 #[command(next_help_heading = "Look")]
 pub(crate) struct LookArgs {
-    /// What becomes of light brighter than white: plain (cut) or filmic (pressed together)
+    /// What becomes of light brighter than white: soft (pressed together), plain (cut) or filmic (bent as film does)
     #[arg(long, value_name = "TONE", value_parser = values::tone)]
     pub(crate) tone: Option<Tone>,
 

@@ -3,6 +3,8 @@ use super::Frame;
 use crate::image::{COLOR_PLANE, Error, Plane, Planes, Rounding};
 use crate::scene::{Exposure, Look, Tone};
 
+/// Where the soft tone begins to press.
+const SHOULDER: f32 = 0.7;
 /// Share of the light that an outline takes.
 const INK: f32 = 0.82;
 /// The brightest part of what is met, but for one percent of the pixels, becomes this with automatic exposure.
@@ -11,8 +13,8 @@ const NEARLY_WHITE: f32 = 0.85;
 const MOST_STOPS: f32 = 4.0;
 
 impl Frame {
-    /// The colours as they are to be shown, as a plane: linear, for [`crate::image::png_bytes`]. With the default look
-    /// those of the frame.
+    /// The colours as they are to be shown, as a plane: linear, for [`crate::image::png_bytes`]. The default look leaves
+    /// all but the brightest as they are in the frame.
     ///
     /// # Errors
     /// As [`Frame::planes`].
@@ -21,7 +23,7 @@ impl Frame {
         let mut samples = Vec::with_capacity(3 * self.rgb.len());
         for (index, color) in self.rgb.iter().enumerate() {
             let ink = if look.outline { 1.0 - INK * self.bend(index) } else { 1.0 };
-            samples.extend(color.map(|c| toned(c * ink * factor, look.tone)));
+            samples.extend(toned(color.map(|c| c * ink * factor), look.tone));
         }
         let mut planes = Planes::new();
         let plane = Plane::with_channels(COLOR_PLANE, self.height, self.width, 3, samples)?;
@@ -74,14 +76,24 @@ impl Frame {
     }
 }
 
+/// Soft: above [`SHOULDER`] the largest component x becomes `s + (1 - s)(1 - exp(-(x - s)/(1 - s)))`, smooth at s and below 1.
 /// Filmic: the fit of Narkowicz (2016) to the curve of the Academy (ACES), which leaves black and presses the bright.
-fn toned(x: f32, tone: Tone) -> f32 {
+fn toned(color: [f32; 3], tone: Tone) -> [f32; 3] {
     match tone {
-        Tone::Plain => x,
-        Tone::Filmic => {
+        Tone::Plain => color,
+        Tone::Soft => {
+            let most = color.into_iter().fold(0.0, f32::max);
+            if most <= SHOULDER {
+                return color;
+            }
+            let room = 1.0 - SHOULDER;
+            let pressed = SHOULDER + room * (1.0 - core_math::expf(-(most - SHOULDER) / room));
+            color.map(|c| c * pressed / most)
+        }
+        Tone::Filmic => color.map(|x| {
             let x = 0.8 * x.max(0.0);
             ((x * (2.51 * x + 0.03)) / (x * (2.43 * x + 0.59) + 0.14)).clamp(0.0, 1.0)
-        }
+        }),
     }
 }
 
@@ -117,12 +129,17 @@ mod tests {
         let frame = frame();
         let look = Look { exposure: Exposure::Stops(1.0), ..Look::default() };
         assert_eq!(shown(&frame, &look)[3], 0.4);
-        let auto = shown(&frame, &Look { exposure: Exposure::AUTO, ..Look::default() });
+        let auto = shown(&frame, &Look { exposure: Exposure::AUTO, tone: Tone::Plain, ..Look::default() });
         assert!((auto[3] - NEARLY_WHITE).abs() < 1e-6, "the brightest that is met: {}", auto[3]);
         let lines = shown(&frame, &Look { outline: true, ..Look::default() });
         assert_eq!((lines[0], lines[9]), (0.6, 0.1), "neither the backdrop nor what lies behind");
         assert!(lines[3] < 0.05 && lines[6] < 0.05, "{lines:?}");
-        assert!(toned(0.0, Tone::Filmic) == 0.0 && toned(50.0, Tone::Filmic) > 0.99);
-        assert!(toned(2.0, Tone::Filmic) < toned(3.0, Tone::Filmic), "brighter than white is told apart");
+        for tone in [Tone::Soft, Tone::Filmic] {
+            let grey = |x: f32| toned([x; 3], tone)[0];
+            assert!(grey(0.0) == 0.0 && grey(50.0) > 0.99, "{tone:?}");
+            assert!(grey(1.5) < grey(2.0), "brighter than white is told apart");
+        }
+        let [r, g, _] = toned([2.0, 1.0, 0.0], Tone::Soft);
+        assert!(r < 1.0 && (r - 2.0 * g).abs() < 1e-6, "the hue stays");
     }
 }

@@ -177,16 +177,19 @@ pub struct Look {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "lowercase")]
 pub enum Tone {
-    /// It is cut.
+    /// The brightest is pressed together and keeps its hue; all else stays.
     #[default]
+    Soft,
+    /// It is cut.
     Plain,
-    /// It is pressed together, as film does.
+    /// Everything is bent as film does: deeper shades, highlights that fade to white.
     Filmic,
 }
 
 impl Tone {
     /// Every tone and its name.
-    pub const ALL: [(Self, &'static str); 2] = [(Self::Plain, "plain"), (Self::Filmic, "filmic")];
+    pub const ALL: [(Self, &'static str); 3] =
+        [(Self::Soft, "soft"), (Self::Plain, "plain"), (Self::Filmic, "filmic")];
 }
 
 /// Brightness of a picture.
