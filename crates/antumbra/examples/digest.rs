@@ -1,11 +1,11 @@
-//! Digests of the planes of presets, all by default: `cargo run --release -p antumbra --example digest -- [SIZE] [THREADS] [PRESET]...`.
+//! Digests of the planes of scenes, all presets by default: `cargo run --release -p antumbra --example digest -- [SIZE] [THREADS] [SCENE]...`.
 //!
 //! Planes are promised to be the same bits for any number of threads, any optimisation of the compiler, and on any machine.
 //! Two runs can be compared: with other arguments, in another profile (`--config profile.dev.opt-level=0`), elsewhere.
-//! Prints a line per preset and method; a digest is FNV-1a, 64 bits, over the bits of all samples.
+//! Prints a line per scene and method; a digest is FNV-1a, 64 bits, over the bits of all samples.
 use antumbra::image::Samples;
 use antumbra::render::{Method, RenderSpec, Renderer, RunSpec};
-use antumbra::scene::{PRESETS, preset};
+use antumbra::scene::{PRESETS, named};
 use std::process::ExitCode;
 use std::sync::Arc;
 use std::time::Duration;
@@ -26,7 +26,7 @@ impl Digest {
 }
 
 fn digest(name: &str, method: Method, size: usize, threads: usize) -> Result<u64, String> {
-    let scene = preset(name).ok_or("no such preset")?.map_err(|e| e.to_string())?;
+    let scene = named(name).ok_or("no such scene")?.map_err(|e| e.to_string())?;
     // One frame with the floor, so that every way of the renderer is taken.
     let spec = RenderSpec { width: size, height: size, method, floor: true, ..RenderSpec::default() };
     let run = RunSpec { threads: Some(threads) };
@@ -53,7 +53,7 @@ fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |i: usize, default: usize| arguments.get(i).map_or(Ok(default), |text| text.parse());
     let (Ok(size), Ok(threads)) = (number(0, 32), number(1, 1)) else {
-        eprintln!("usage: digest [SIZE] [THREADS] [PRESET]..., size and threads whole numbers");
+        eprintln!("usage: digest [SIZE] [THREADS] [SCENE]..., size and threads whole numbers");
         return ExitCode::from(2);
     };
     let wanted = arguments.get(2..).unwrap_or_default();

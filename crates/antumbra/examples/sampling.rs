@@ -19,7 +19,7 @@ mod light;
 mod sampler;
 
 use antumbra::render::{Frame, RenderSpec, Renderer, RunSpec, Stats};
-use antumbra::scene::{Scene, preset};
+use antumbra::scene::{Scene, named};
 use light::{found, visible};
 use rayon::prelude::*;
 use sampler::Judge;
@@ -63,8 +63,8 @@ fn main() -> ExitCode {
     println!("|---|---|---|---|---|---|---|---|---|");
     let mut wrong = 0;
     for name in names {
-        let Some(Ok(scene)) = preset(&name) else {
-            eprintln!("`{name}` is not a preset");
+        let Some(Ok(scene)) = named(&name) else {
+            eprintln!("`{name}` is not a scene");
             return ExitCode::from(2);
         };
         let scene = Arc::new(scene);

@@ -1,7 +1,7 @@
 //! The audit agrees with honest frames and finds planted errors of every kind.
 use antumbra::audit::{Audit, AuditSpec, Kind, Report};
 use antumbra::render::{Frame, RenderSpec, Renderer, RunSpec};
-use antumbra::scene::{Scene, preset};
+use antumbra::scene::{Scene, named};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -27,7 +27,7 @@ fn audit(scene: &Scene, frame: &Frame, pixels: usize) -> Report {
 #[test]
 fn honest_frames_stand() {
     for name in ["sphere", "links", "sphere2", "pole", "whitney"] {
-        let scene = Arc::new(preset(name).unwrap().unwrap());
+        let scene = Arc::new(named(name).unwrap().unwrap());
         let report = audit(&scene, &frame_of(&scene), 24);
         assert_eq!(report.violations, Vec::<String>::new(), "{name}");
         let total = report.total();
@@ -43,7 +43,7 @@ type Wanted = fn(&Frame, usize) -> bool;
 
 #[test]
 fn planted_errors_are_found() {
-    let scene = Arc::new(preset("links").unwrap().unwrap());
+    let scene = Arc::new(named("links").unwrap().unwrap());
     let honest = frame_of(&scene);
     let lit: Wanted = |f, i| f.verdict[i] == 1 && f.lights[1].visible_lo[i] == 1.0;
     let dark: Wanted = |f, i| f.verdict[i] == 1 && f.lights[0].visible_hi[i] == 0.0;

@@ -19,7 +19,7 @@ mod sampler;
 use antumbra::eval::Workspace;
 use antumbra::geom::strips::Curve;
 use antumbra::geom::{Box3, Rect};
-use antumbra::scene::{Object, Scene, preset};
+use antumbra::scene::{Object, Scene, named};
 use antumbra::shadow::{Bracket, Claim, Penumbra, Receiver, Says, Scratch, Tolerance, visible, whole_beam};
 use antumbra::trace::{Cost, Sign, Surface};
 use antumbra_interval::Interval;
@@ -180,7 +180,7 @@ fn check(name: &str, scene: &Scene, floor: bool, scale: f64, width: f64, hits: u
 fn every_claim_holds_on_random_rays() {
     let mut tally = Tally::default();
     for name in ["orthocircle", "chubs", "kusner", "mcmullen"] {
-        let scene = preset(name).unwrap().unwrap();
+        let scene = named(name).unwrap().unwrap();
         for (scale, width, hits) in [(1.0, 1.0 / 255.0, 5), (1.0, 1.0 / 4096.0, 2), (4.0, 1.0 / 255.0, 2)] {
             let mut of = Tally::default();
             check(name, &scene, false, scale, width, long_run().unwrap_or(hits), &mut of);
@@ -197,7 +197,7 @@ fn every_claim_holds_on_random_rays() {
 fn claims_of_other_scenes_hold() {
     let mut tally = Tally::default();
     for (name, floor) in [("sphere", true), ("torus", true), ("gyroid", false), ("tangle", true), ("chubs", true)] {
-        check(name, &preset(name).unwrap().unwrap(), floor, 2.0, 1.0 / 255.0, 2, &mut tally);
+        check(name, &named(name).unwrap().unwrap(), floor, 2.0, 1.0 / 255.0, 2, &mut tally);
     }
     for text in [
         "smooth_union(sphere(0.8), translate(box(0.5), 0.6, 0.2, 0.1), 0.2)",

@@ -77,7 +77,7 @@ impl Clause {
 }
 
 impl Tape {
-    /// A tape of the given clauses.
+    /// A tape of the given clauses; operands that an operation does not read become 0.
     ///
     /// Whether it is continuous everywhere is decided from the operators alone: each must be total and continuous
     /// ([`Unary::is_total_and_continuous`](crate::expr::Unary::is_total_and_continuous)); an integer power is if its exponent
@@ -95,7 +95,7 @@ impl Tape {
         Self::checked(clauses, constants, continuous)
     }
 
-    pub(super) fn checked(clauses: Vec<Clause>, constants: Vec<Interval>, continuous: bool) -> Result<Self, TapeError> {
+    pub(super) fn checked(mut clauses: Vec<Clause>, constants: Vec<Interval>, continuous: bool) -> Result<Self, TapeError> {
         if clauses.is_empty() {
             return Err(TapeError::Empty);
         }
@@ -118,6 +118,11 @@ impl Tape {
             {
                 return Err(TapeError::NoConstant { clause: i, constant });
             }
+        }
+        // What an operation does not read names a slot that there is: evaluators may look at it.
+        for clause in &mut clauses {
+            let read = clause.op.operands();
+            (clause.a, clause.b) = (if read > 0 { clause.a } else { 0 }, if read > 1 { clause.b } else { 0 });
         }
         let slots = clauses.iter().map(|c| c.out as usize + 1).max().unwrap_or(0);
         Ok(Self { clauses, constants, slots, continuous })
