@@ -53,6 +53,16 @@ fn scenes_of_random_bytes() {
     random("scene", 3_000);
 }
 
+#[test]
+fn regions_of_random_bytes() {
+    random("regions", 1_500);
+}
+
+#[test]
+fn imports_of_random_bytes() {
+    random("import", 3_000);
+}
+
 /// Inputs that once broke something.
 #[test]
 fn finds_of_the_fuzzer_are_right_now() {

@@ -95,7 +95,11 @@ impl Tape {
         Self::checked(clauses, constants, continuous)
     }
 
-    pub(super) fn checked(mut clauses: Vec<Clause>, constants: Vec<Interval>, continuous: bool) -> Result<Self, TapeError> {
+    pub(super) fn checked(
+        mut clauses: Vec<Clause>,
+        constants: Vec<Interval>,
+        continuous: bool,
+    ) -> Result<Self, TapeError> {
         if clauses.is_empty() {
             return Err(TapeError::Empty);
         }
