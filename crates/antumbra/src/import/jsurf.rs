@@ -31,12 +31,10 @@ pub(super) fn read(file: &str) -> Result<Model, Error> {
     let mut pieces = Pieces::of(file);
     for p in &properties {
         let Some(name) = p.key.strip_prefix("surface_parameter_") else { continue };
-        pieces.push(name, p.at.end - name.len());
-        pieces.add(" = (");
-        p.value.iter().for_each(|(piece, at)| pieces.push(piece, *at));
-        pieces.add("); ");
+        let value: Vec<(&str, usize)> = p.value.iter().map(|(piece, at)| (piece.as_str(), *at)).collect();
+        pieces.define((name, p.at.end - name.len()), "", &value);
     }
-    equation.value.iter().for_each(|(piece, at)| pieces.push(piece, *at));
+    equation.value.iter().for_each(|(piece, at)| pieces.expression(piece, *at));
     let formula = written(file, &pieces.formula()?, equation.at.start)?;
     let clip = match properties.iter().rfind(|p| p.key == "scale_factor") {
         None => Clip::Ball { center: Vec3::default(), radius: 1.0 },

@@ -125,14 +125,10 @@ impl<'a> Script<'a> {
                     let error = Error::new(self.file, ErrorKind::Statement, at..at, "a definition without `=`");
                     return Err(error.with_help("constants are written `N=5`, functions `f=x^2+y^2`"));
                 };
-                pieces.push(name, at);
-                pieces.add(parameters);
-                pieces.add(" = (");
-                pieces.push(value, at + name.len() + 1);
-                pieces.add("); ");
+                pieces.define((name, at), parameters, &[(value, at + name.len() + 1)]);
             }
         }
-        pieces.push(text, self.string(text).start);
+        pieces.expression(text, self.string(text).start);
         pieces.formula()
     }
 
