@@ -304,19 +304,24 @@ pub(crate) struct CompareArgs {
 /// Scene files: write one to begin with, check one, print one.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SceneCommand {
-    /// Write a scene file to begin with, with a comment for every key
+    /// Write a scene file to begin with, with comments
+    #[command(after_help = "Examples:\n  antumbra scene new rings.toml && antumbra render rings.toml")]
     New {
         /// File to write, such as rings.toml; an existing file is kept
         #[arg(value_name = "FILE.toml")]
         file: PathBuf,
     },
     /// Say whether a scene can be drawn, and what it holds
+    #[command(after_help = "Examples:\n  antumbra scene check rings.toml\n  antumbra scene check 'x^2 + y^2 = z^3'")]
     Check {
         /// A scene file, a preset, a formula, or `-`
         #[arg(value_name = "SCENE")]
         scene: String,
     },
     /// Print a scene as a scene file, complete: what was left out is filled in
+    #[command(
+        after_help = "Examples:\n  antumbra scene show boy > mine.toml\n  antumbra scene show model.vm > model.toml"
+    )]
     Show {
         /// A scene file, a preset, a formula, or `-`
         #[arg(value_name = "SCENE")]

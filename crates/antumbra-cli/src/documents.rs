@@ -86,7 +86,8 @@ fn every_command_of_the_pages_is_one() {
                 _ => continue,
             };
             // Files are the reader's own.
-            let file = scene == "-" || scene.ends_with('/') || Path::new(&scene).extension().is_some_and(|e| e.len() < 6);
+            let file =
+                scene == "-" || scene.ends_with('/') || Path::new(&scene).extension().is_some_and(|e| e.len() < 6);
             if !file {
                 find_scene(&scene).unwrap_or_else(|e| panic!("{place}\n{e}"));
             }

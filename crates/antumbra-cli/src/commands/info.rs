@@ -12,7 +12,8 @@ use crate::{options::thread_count, output::print};
 pub(super) fn run() -> Result<()> {
     let methods: Vec<String> = Method::ALL.iter().map(|(_, name, about)| format!("  {name:<15} {about}")).collect();
     let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {:<15} {}", p.name, p.title)).collect();
-    let gallery = GALLERY.iter().map(|e| Ok(format!("  {:<15} {}", e.name, e.scene()?.title))).collect::<Result<Vec<_>>>()?;
+    let gallery =
+        GALLERY.iter().map(|e| Ok(format!("  {:<15} {}", e.name, e.scene()?.title))).collect::<Result<Vec<_>>>()?;
     print(&format!(
         "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:\n{}\ngallery ({} surfaces):\n{}\nmethods (default: {}):\n{}\n",
         env!("CARGO_PKG_VERSION"),

@@ -56,7 +56,9 @@ fn pages() -> Result<Vec<(String, String)>> {
     let mut pages = Vec::new();
     while let Some((name, command)) = open.pop() {
         let below = command.get_subcommands().filter(|c| c.get_name() != "help");
-        open.extend(below.map(|c| (format!("{name}-{}", c.get_name()), c.clone())).collect::<Vec<_>>().into_iter().rev());
+        open.extend(
+            below.map(|c| (format!("{name}-{}", c.get_name()), c.clone())).collect::<Vec<_>>().into_iter().rev(),
+        );
         let page: Command = command.name(leak(&name)).display_name(leak(&name));
         let mut text = Vec::new();
         clap_mangen::Man::new(page).render(&mut text)?;

@@ -36,7 +36,11 @@ pub(super) fn run(command: &SceneCommand) -> Result<()> {
             let (objects, lights) = (&found.scene.objects, found.scene.lights.len());
             let whole = objects.iter().filter(|o| o.region() != o.clip() || o.clip() == Clip::Everywhere).count();
             for (k, o) in objects.iter().enumerate().filter(|(_, o)| extent(o.surface.as_ref()) == Extent::Nowhere) {
-                remark(&format!("surface {}, `{}`, has no zero (proved for |x|, |y|, |z| <= 2^20)", k + 1, o.text.trim()));
+                remark(&format!(
+                    "surface {}, `{}`, has no zero (proved for |x|, |y|, |z| <= 2^20)",
+                    k + 1,
+                    o.text.trim()
+                ));
             }
             print(&format!(
                 "{}: surfaces: {} ({whole} proved to lie wholly inside their clips), lights: {lights}, floor: {}\n",

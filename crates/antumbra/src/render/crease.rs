@@ -30,8 +30,7 @@ pub(super) fn grids(task: &Task, pixels: &[usize]) -> (Vec<(usize, Edge)>, Cost)
         let open = narrow(&surfaces, &fan, &Known::nothing(&surfaces, &fan), &mut stack, &mut work, &mut cost);
         let mut meet = |k: usize| {
             let ray = task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS);
-            let found =
-                first_meeting(&surfaces, &ray, &open.open, task.glance, &mut scratch, &mut work, &mut cost)?;
+            let found = first_meeting(&surfaces, &ray, &open.open, task.glance, &mut scratch, &mut work, &mut cost)?;
             Some(task.hit(found.surface, &ray, found.t, found.before, &mut work))
         };
         (index, Edge { rays: (0..EDGE_RAYS * EDGE_RAYS).map(&mut meet).collect(), thin: None })

@@ -1,5 +1,6 @@
 //! Scenes as text: TOML files, read with errors that name line and key, and written so that they can be read again.
 use super::entry::{CameraEntry, ClipEntry, ColorBy, FloorEntry, LightEntry, SurfaceEntry};
+use super::place::advice;
 use super::{About, Backdrop, Colors, Exposure, Light, Look, Object, Output, Scene, Sky, View, framing};
 use crate::geom::Clip;
 use serde::{Deserialize, Serialize};
@@ -125,8 +126,8 @@ impl SceneFile {
     pub fn parse(text: &str) -> Result<Self, FileError> {
         toml::from_str(text).map_err(|e| {
             let mut message = e.to_string().trim_end().to_owned();
-            if let Some(near) = suggestion(e.message()) {
-                message = format!("{message}\ndid you mean `{near}`?");
+            if let Some(advice) = advice(e.message(), text, e.span()) {
+                message = format!("{message}\n{advice}");
             }
             FileError::Shape { message, span: e.span() }
         })
@@ -313,13 +314,4 @@ fn check_look(scene: &Scene) -> Result<(), FileError> {
         return Err(value_error("output.tolerance", "must be from 1e-9 to 1"));
     }
     Ok(())
-}
-
-/// The known key, or word, that is nearest to an unknown one, out of TOML's message.
-fn suggestion(message: &str) -> Option<String> {
-    let unknown = message.strip_prefix("unknown field ").or_else(|| message.strip_prefix("unknown variant "));
-    let mut names = unknown?.split('`').skip(1).step_by(2);
-    let unknown = names.next()?;
-    let near = |name: &&str| strsim::damerau_levenshtein(unknown, name);
-    names.min_by_key(near).filter(|name| near(name) <= 1 + unknown.len() / 3).map(str::to_owned)
 }
