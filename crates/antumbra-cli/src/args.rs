@@ -30,10 +30,26 @@ pub(crate) enum Command {
     Paper(PaperArgs),
     Audit(AuditArgs),
     Gallery(GalleryArgs),
-    #[command(subcommand)]
+    #[command(subcommand, after_help = SCENE_EXAMPLES)]
     Scene(SceneCommand),
+    #[command(after_help = INFO_EXAMPLES)]
+    /// Say what this program and this machine offer: presets, gallery, methods, processor
     Info,
+    Completions(CompletionsArgs),
+    Man(ManArgs),
 }
+
+const INFO_EXAMPLES: &str = "\
+Examples:
+  antumbra info                                     # version, processor, presets, gallery, methods
+  antumbra info | grep AVX-512";
+
+const SCENE_EXAMPLES: &str = "\
+Examples:
+  antumbra scene new rings.toml                     # a scene to begin with, every key explained
+  antumbra scene check rings.toml
+  antumbra scene show boy > mine.toml               # a scene of the gallery, to be changed
+  antumbra scene show 'a = 1; x^2 + y^2 + a z^2 = 1' > ellipsoid.toml";
 
 const RENDER_EXAMPLES: &str = "\
 Examples:
@@ -231,6 +247,11 @@ pub(crate) struct SpecArgs {
     #[arg(long, value_name = "ORDER", default_value = "auto", value_parser = values::penumbra)]
     pub(crate) penumbra: Penumbra,
 
+    /// Ask every question of the whole formula: no shorter tapes for parts of space. Long formulas with many min and max take
+    /// much longer; no claim changes
+    #[arg(long)]
+    pub(crate) no_regions: bool,
+
     /// Seed of random choices: the points of rays-mc, the pixels and rays of an audit
     #[arg(long, value_name = "N", default_value = "1")]
     pub(crate) seed: u64,
@@ -283,24 +304,63 @@ pub(crate) struct CompareArgs {
 /// Scene files: write one to begin with, check one, print one.
 #[derive(Debug, Subcommand)]
 pub(crate) enum SceneCommand {
-    /// Write a scene file to begin with, with a comment for every key
+    /// Write a scene file to begin with, with comments
+    #[command(after_help = "Examples:\n  antumbra scene new rings.toml && antumbra render rings.toml")]
     New {
         /// File to write, such as rings.toml; an existing file is kept
         #[arg(value_name = "FILE.toml")]
         file: PathBuf,
     },
     /// Say whether a scene can be drawn, and what it holds
+    #[command(after_help = "Examples:\n  antumbra scene check rings.toml\n  antumbra scene check 'x^2 + y^2 = z^3'")]
     Check {
         /// A scene file, a preset, a formula, or `-`
         #[arg(value_name = "SCENE")]
         scene: String,
     },
     /// Print a scene as a scene file, complete: what was left out is filled in
+    #[command(
+        after_help = "Examples:\n  antumbra scene show boy > mine.toml\n  antumbra scene show model.vm > model.toml"
+    )]
     Show {
         /// A scene file, a preset, a formula, or `-`
         #[arg(value_name = "SCENE")]
         scene: String,
     },
+}
+
+const COMPLETIONS_EXAMPLES: &str = "\
+Examples:
+  antumbra completions bash > ~/.local/share/bash-completion/completions/antumbra
+  antumbra completions zsh > ~/.zfunc/_antumbra
+  antumbra completions fish > ~/.config/fish/completions/antumbra.fish";
+
+/// Print a script that completes this program's options in a shell.
+#[derive(Debug, clap::Args)]
+#[command(after_help = COMPLETIONS_EXAMPLES)]
+pub(crate) struct CompletionsArgs {
+    /// The shell
+    #[arg(value_name = "SHELL")]
+    pub(crate) shell: clap_complete::Shell,
+}
+
+const MAN_EXAMPLES: &str = "\
+Examples:
+  antumbra man | man -l -                           # reads this program's page
+  antumbra man render > antumbra-render.1           # the page of a command
+  antumbra man -o ~/.local/share/man/man1           # writes all pages";
+
+/// Print a manual page, or write all of them.
+#[derive(Debug, clap::Args)]
+#[command(after_help = MAN_EXAMPLES)]
+pub(crate) struct ManArgs {
+    /// The command whose page is wanted [default: the page of the program]
+    #[arg(value_name = "COMMAND", conflicts_with = "output")]
+    pub(crate) command: Option<String>,
+
+    /// Write the pages of the program and of all its commands into this folder; made if its parent exists
+    #[arg(short, long, value_name = "DIR")]
+    pub(crate) output: Option<PathBuf>,
 }
 
 const AUDIT_EXAMPLES: &str = "\

@@ -6,6 +6,8 @@
 mod animation;
 mod args;
 mod commands;
+#[cfg(test)]
+mod documents;
 mod failure;
 mod import;
 mod interrupt;

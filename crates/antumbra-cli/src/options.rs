@@ -315,6 +315,7 @@ fn specs(args: SpecArgs, method: Method, wanted: Output) -> (RenderSpec, RunSpec
         tolerance: args.tolerance.or(wanted.tolerance).unwrap_or(usual.tolerance),
         rectangles: args.rectangles,
         penumbra: args.penumbra,
+        regions: !args.no_regions,
         ..RenderSpec::default()
     };
     (spec, RunSpec { threads: args.threads })
@@ -376,7 +377,7 @@ fn from_file(path: &Path) -> Result<NamedScene> {
     let text = String::from_utf8(bytes).map_err(|e| refuse(format!("it is not text in UTF-8: {e}")))?;
     let stem = path.file_stem().map_or_else(|| "antumbra".to_owned(), |s| s.to_string_lossy().into_owned());
     let file = SceneFile::parse(&text).map_err(|e| refuse(e.to_string()))?;
-    let scene = Arc::new(file.scene(&stem).map_err(|e| refuse(e.to_string()))?);
+    let scene = Arc::new(file.scene(&stem).map_err(|e| refuse(e.in_text(&text)))?);
     Ok(NamedScene { name: path.display().to_string(), stem, scene, file: Some(file) })
 }
 

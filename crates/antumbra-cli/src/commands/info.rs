@@ -8,18 +8,21 @@ use anyhow::Result;
 
 use crate::{options::thread_count, output::print};
 
-/// Prints version, processor, presets and methods.
+/// Prints version, processor, presets, gallery and methods.
 pub(super) fn run() -> Result<()> {
     let methods: Vec<String> = Method::ALL.iter().map(|(_, name, about)| format!("  {name:<15} {about}")).collect();
     let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {:<15} {}", p.name, p.title)).collect();
+    let gallery =
+        GALLERY.iter().map(|e| Ok(format!("  {:<15} {}", e.name, e.scene()?.title))).collect::<Result<Vec<_>>>()?;
     print(&format!(
-        "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:\n{}\ngallery: {} surfaces (`antumbra gallery --list`)\nmethods (default: {}):\n{}\n",
+        "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:\n{}\ngallery ({} surfaces):\n{}\nmethods (default: {}):\n{}\n",
         env!("CARGO_PKG_VERSION"),
         std::env::consts::ARCH,
         processor_features(),
         thread_count(&RunSpec::default()),
         presets.join("\n"),
         GALLERY.len(),
+        gallery.join("\n"),
         RenderSpec::default().method.name(),
         methods.join("\n"),
     ))

@@ -5,6 +5,7 @@ mod audit;
 mod compare;
 mod gallery;
 mod info;
+mod manual;
 mod paper;
 mod record;
 mod render;
@@ -43,6 +44,8 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Command::Gallery(args) => gallery::run(&GalleryOptions::new(args)?),
         Command::Scene(command) => scene::run(&command),
         Command::Info => info::run(),
+        Command::Completions(args) => manual::completions(&args),
+        Command::Man(args) => manual::man(&args),
     }
 }
 

@@ -3,6 +3,7 @@
 use antumbra::{
     image::npy_bytes,
     render::{Method, Stats},
+    scene::{Extent, Object, extent},
 };
 use anyhow::{Result, bail};
 use indicatif::HumanCount;
@@ -121,12 +122,12 @@ fn summary(options: &RenderOptions, stats: &Stats) -> String {
             stats.bracket_width_max
         ),
     };
-    let hint = if stats.hits == 0 {
-        "\nnothing to see: no pixel meets a surface"
+    let hint = if stats.hits == stats.floor_hits {
+        nothing(options, stats)
     } else if undecided == stats.hits && spec.method == Method::Certified {
-        "\nno hit is proved: `--overlay verdict` shows why"
+        "\nno hit is proved: `--overlay verdict` shows why".to_owned()
     } else {
-        ""
+        String::new()
     };
     let planes = options.planes.as_deref().map(|p| format!(" and {}/*", p.display())).unwrap_or_default();
     format!(
@@ -147,4 +148,19 @@ fn summary(options: &RenderOptions, stats: &Stats) -> String {
         spec.method.name(),
         stats.threads,
     )
+}
+
+/// Why there is nothing to see: because there is no surface, if that can be proved, or because no pixel meets it.
+fn nothing(options: &RenderOptions, stats: &Stats) -> String {
+    let objects = &options.scene.scene.objects;
+    let nowhere = |o: &Object| extent(o.surface.as_ref()) == Extent::Nowhere;
+    if objects.iter().all(nowhere) {
+        let [what, has] = if objects.len() == 1 { ["the formula", "has"] } else { ["the formulas", "have"] };
+        return format!("\nnothing to see: {what} {has} no zero (proved for |x|, |y|, |z| <= 2^20)");
+    }
+    if stats.floor_hits == 0 && stats.proved_empty == (stats.width * stats.height) as u64 {
+        let advice = "is it inside its clip and in front of the camera? `antumbra scene show` prints both";
+        return format!("\nnothing to see: no ray of the picture meets a surface (proved); {advice}");
+    }
+    "\nnothing to see: no pixel meets a surface".to_owned()
 }

@@ -1,6 +1,9 @@
 //! `antumbra scene`: scene files written, checked and printed.
 
-use antumbra::{geom::Clip, scene::SceneFile};
+use antumbra::{
+    geom::Clip,
+    scene::{Extent, SceneFile, extent},
+};
 use anyhow::{Result, bail};
 
 use crate::{
@@ -32,6 +35,13 @@ pub(super) fn run(command: &SceneCommand) -> Result<()> {
             let found = find_scene(scene)?;
             let (objects, lights) = (&found.scene.objects, found.scene.lights.len());
             let whole = objects.iter().filter(|o| o.region() != o.clip() || o.clip() == Clip::Everywhere).count();
+            for (k, o) in objects.iter().enumerate().filter(|(_, o)| extent(o.surface.as_ref()) == Extent::Nowhere) {
+                remark(&format!(
+                    "surface {}, `{}`, has no zero (proved for |x|, |y|, |z| <= 2^20)",
+                    k + 1,
+                    o.text.trim()
+                ));
+            }
             print(&format!(
                 "{}: surfaces: {} ({whole} proved to lie wholly inside their clips), lights: {lights}, floor: {}\n",
                 found.scene.title,
@@ -39,6 +49,13 @@ pub(super) fn run(command: &SceneCommand) -> Result<()> {
                 if found.scene.floor_shown { "yes" } else { "no" },
             ))
         }
-        SceneCommand::Show { scene } => print(&SceneFile::of(&find_scene(scene)?.scene).text()?),
+        SceneCommand::Show { scene } => {
+            let found = find_scene(scene)?;
+            let file = match &found.file {
+                Some(file) => file.completed(&found.stem)?,
+                None => SceneFile::of(&found.scene),
+            };
+            print(&file.text()?)
+        }
     }
 }

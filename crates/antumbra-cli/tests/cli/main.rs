@@ -6,6 +6,7 @@ mod bad_input;
 mod bench;
 mod commands;
 mod gallery;
+mod help;
 mod interrupt;
 mod resume;
 mod scene;

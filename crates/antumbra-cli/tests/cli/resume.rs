@@ -13,7 +13,7 @@ use predicates::{prelude::PredicateBooleanExt, str::contains};
 use serde_json::Value;
 
 const WHAT: [&str; 10] =
-    ["render", "links", "--floor", "--size", "200", "--threads", "1", "--save-every", "0.001", "--quiet"];
+    ["render", "links", "--floor", "--size", "256", "--threads", "1", "--save-every", "0.001", "--quiet"];
 
 /// Picture, planes and JSON of a render, without its times.
 fn result(bench: &Bench, folder: &str) -> (Vec<(String, Vec<u8>)>, Value) {
@@ -69,14 +69,24 @@ fn a_killed_render_goes_on_to_the_identical_files() {
         fs::create_dir(bench.file(folder)).unwrap();
     }
     run(&bench, "whole", &[]).success();
-    let mut kills = 0;
-    for _ in 0..3 {
+    // Ten times, at ten moments after something was saved; where it was done before that, it begins again.
+    let (mut kills, mut moment) = (0, 7);
+    for _ in 0..40 {
         let mut child = running(&bench, "killed");
+        moment = (moment * 29 + 11) % 61;
+        thread::sleep(Duration::from_millis(moment));
         child.kill().expect("SIGKILL");
-        kills += u32::from(!child.wait().expect("a child").success());
+        let killed = !child.wait().expect("a child").success();
         assert!(bench.file("killed/p.png.state").exists() || bench.file("killed/p.png").exists());
+        kills += u32::from(killed);
+        if kills == 10 {
+            break;
+        }
+        if !killed {
+            fs::remove_file(bench.file("killed/p.png")).unwrap();
+        }
     }
-    assert!(kills > 0, "it was never killed on the way");
+    assert_eq!(kills, 10, "it was killed on the way");
     run(&bench, "killed", &["--resume"]).success();
     assert!(result(&bench, "whole") == result(&bench, "killed"));
     assert!(!bench.file("killed/p.png.state").exists());
@@ -100,7 +110,7 @@ fn ctrl_c_keeps_what_is_done() {
     assert_eq!(names, ["p.png.state", "p.unfinished.png"]);
     let preview =
         png::Decoder::new(std::io::BufReader::new(fs::File::open(bench.file("stopped/p.unfinished.png")).unwrap()));
-    assert_eq!(preview.read_info().unwrap().info().size(), (200, 200));
+    assert_eq!(preview.read_info().unwrap().info().size(), (256, 256));
     run(&bench, "stopped", &["--resume"]).success().stderr(contains("going on with `stopped/p.png.state`"));
     assert!(result(&bench, "whole") == result(&bench, "stopped"));
     assert!(!bench.file("stopped/p.unfinished.png").exists() && !bench.file("stopped/p.png.state").exists());
@@ -109,10 +119,11 @@ fn ctrl_c_keeps_what_is_done() {
 #[test]
 fn a_spent_budget_can_be_resumed_and_a_state_is_not_used_unasked() {
     let bench = Bench::new();
-    let render = |more: &[&str]| {
-        let args = [&["render", "gyroid", "--size", "128", "-o", "p.png"], more].concat();
+    let sized = |size: &str, more: &[&str]| {
+        let args = [&["render", "gyroid", "-o", "p.png", "--size", size], more].concat();
         bench.antumbra(&args).assert()
     };
+    let render = |more: &[&str]| sized("128", more);
     let spent = render(&["--budget", "0.05"]).code(1);
     let spent = spent.stderr(contains("the budget of 0.05 s is spent")).stderr(contains("--resume goes on with it"));
     spent.stderr(contains("p.unfinished.png")).stderr(contains("--tolerance"));
@@ -120,7 +131,7 @@ fn a_spent_budget_can_be_resumed_and_a_state_is_not_used_unasked() {
     let state = fs::read(bench.file("p.png.state")).unwrap();
 
     // Not that picture, or not a whole state.
-    let other = render(&["--size", "64", "--resume"]).code(1);
+    let other = sized("64", &["--resume"]).code(1);
     other.stderr(contains("cannot go on with `p.png.state`: it is of other options: width: 128, height: 128 there"));
     fs::write(bench.file("p.png.state"), &state[..state.len() / 2]).unwrap();
     let cut = render(&["--resume"]).code(1);

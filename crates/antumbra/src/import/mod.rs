@@ -7,7 +7,7 @@
 //! | [`Format::MathMod`] | `.json` | `Iso3D`: equations, constants, functions, box |
 //! | [`Format::Formula`] | `.txt` | one formula of the language of [`crate::expr`] |
 //!
-//! A decimal in a file is that decimal, exactly. `docs/import.md` has the grammars. Errors are those of formulas: they show the
+//! A decimal in a file is that decimal, exactly. `docs/imports.md` has the grammars. Errors are those of formulas: they show the
 //! place in the file and say what to do.
 mod jsurf;
 mod mathmod;

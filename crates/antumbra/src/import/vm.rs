@@ -239,7 +239,7 @@ impl<'a> Reader<'a> {
         Ok(if text.starts_with('-') { -q } else { q })
     }
 
-    /// The operation as one, or as a few, of the graph's: see the table in `docs/import.md`.
+    /// The operation as one, or as a few, of the graph's: see the table in `docs/imports.md`.
     fn apply(&mut self, opcode: Opcode, values: [Option<NodeId>; 2], at: Range<usize>) -> Result<NodeId, Error> {
         let divisor = match opcode {
             Opcode::Binary(Binary::Div) | Opcode::Mod => values[1].and_then(|b| self.graph.exact(b)),

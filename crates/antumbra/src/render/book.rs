@@ -1,8 +1,10 @@
 //! What is known of the picture so far: the frame, its hits, and the statistics.
+use super::crease::apart;
 use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
 use super::task::Task;
 use super::{Frame, LightPlanes, Method, Stats};
+use crate::trace::Cost;
 use crate::verdict::{Reason, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -142,13 +144,37 @@ impl Book {
         let Hit { point: position, normal, color, floor, object, .. } = *hit;
         let finish = task.objects[object].finish;
         let point = Point { position, normal, color, finish, floor, touching };
-        let eye = task.film.camera.eye;
+        let camera = [task.film.camera.eye, task.scene.view.target];
         let lights = task.lights.iter().zip(&task.full).zip(&self.frame.lights).map(|((light, full), planes)| Lamp {
             light,
             full: *full,
             visible: lit_as.map(|at| planes.visible(at)),
         });
-        shade::shade(&point, lights, &task.scene.sky, eye, backdrop, task.scene.scale()).map(|c| c as f32)
+        shade::shade(&point, lights, &task.scene.sky, camera, backdrop, task.scene.scale()).map(|c| c as f32)
+    }
+
+    /// Of some pixels those that show an edge within what they meet, and have no grid of rays yet.
+    pub(super) fn creases(&self, task: &Task, pixels: impl Iterator<Item = usize>) -> Vec<usize> {
+        let (width, height) = (task.film.width, task.film.height);
+        let crease = |index: &usize| {
+            let (index, column, row) = (*index, index % width, index / width);
+            let Some(hit) = self.hits[index].filter(|hit| hit.receiver.is_some()) else { return false };
+            let beside = [
+                (column > 0, index.wrapping_sub(1)),
+                (column + 1 < width, index + 1),
+                (row > 0, index.wrapping_sub(width)),
+                (row + 1 < height, index + width),
+            ];
+            let differs = |at: usize| self.hits[at].is_some_and(|other| apart(&hit, &other));
+            !self.edges.contains_key(&index) && beside.into_iter().any(|(inside, at)| inside && differs(at))
+        };
+        pixels.filter(crease).collect()
+    }
+
+    /// Grids of rays of such pixels.
+    pub(super) fn put_creases(&mut self, (edges, cost): (Vec<(usize, Edge)>, Cost)) {
+        self.edges.extend(edges);
+        self.stats.edge_evaluations += cost.evaluations;
     }
 
     /// The colours that depend on neighbouring pixels, when those are known: of what may be a surface, and of edges.

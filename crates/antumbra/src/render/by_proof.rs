@@ -17,7 +17,7 @@ const COVERAGE_LEVELS: u32 = 2;
 /// Cosine between normals within a pixel from which it is shown as one surface.
 const PLAIN_NORMAL: f64 = 0.97;
 /// Rays along each side of such a pixel, for its colour.
-const EDGE_RAYS: usize = 4;
+pub(super) const EDGE_RAYS: usize = 4;
 
 /// A part of the picture: column, row and side, which may reach over the picture's border.
 type Block = (usize, usize, usize);
@@ -118,7 +118,11 @@ impl Primary<'_> {
         }
         let thin = hit.and_then(|hit| {
             let before = |p: &&Piece| p.surface != hit.object && p.t.lo() < hit.t.lo();
-            let piece = open.open.iter().find(before)?;
+            let piece = *open.open.iter().find(before)?;
+            // An enclosure over the whole pixel reaches too far beside an edge: ask its parts.
+            if !self.remains(&piece, hit.t.lo(), window, open, COVERAGE_LEVELS, &mut cost) {
+                return None;
+            }
             let beam = self.task.film.beam(column, row);
             Some(self.task.hit(piece.surface, &beam, piece.t, None, &mut self.work))
         });
@@ -128,7 +132,7 @@ impl Primary<'_> {
         let mut rays = Vec::with_capacity(EDGE_RAYS * EDGE_RAYS);
         for k in 0..EDGE_RAYS * EDGE_RAYS {
             let ray = self.task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS);
-            let meeting = self.meet(&ray, open, Effort::COARSE, &mut cost);
+            let meeting = self.meet(&ray, open, self.task.glance, &mut cost);
             rays.push(meeting.map(|m| self.hit(&ray, &m)));
             if let (None, Some(Meeting { reason: None, .. })) = (hit, meeting)
                 && let Some(m @ Meeting { reason: None, .. }) = self.meet(&ray, open, Effort::FINE, &mut cost)
@@ -151,11 +155,29 @@ impl Primary<'_> {
         [(0, 0), (1, 0), (0, 1), (1, 1)].into_iter().all(|(i, j)| {
             let last = EDGE_RAYS - 1;
             let ray = self.task.film.sub_ray(column, row, i * last, j * last, EDGE_RAYS);
-            let meeting = self.meet(&ray, open, Effort::COARSE, cost);
+            let meeting = self.meet(&ray, open, self.task.glance, cost);
             meeting.is_some_and(|m| {
                 let corner = self.hit(&ray, &m);
                 corner.normal.dot(centre.normal) > PLAIN_NORMAL && corner.object == centre.object
             })
+        })
+    }
+
+    /// Whether the surface of a piece stays possible before `until` in some part of a window of the film.
+    fn remains(
+        &mut self,
+        piece: &Piece,
+        until: f64,
+        window: [Interval; 2],
+        parent: &Open,
+        levels: u32,
+        cost: &mut Cost,
+    ) -> bool {
+        quarters(window).into_iter().any(|part| {
+            let fan = self.task.film.fan_of(part[0], part[1]);
+            let open = narrow(&self.surfaces, &fan, parent, &mut self.stack, &mut self.work, cost);
+            let there = open.open.iter().any(|p| p.surface == piece.surface && p.t.lo() < until);
+            there && (levels <= 1 || self.remains(piece, until, part, &open, levels - 1, cost))
         })
     }
 
@@ -174,8 +196,7 @@ impl Primary<'_> {
 
     /// Bounds of the covered share of a window of the film, as if its parts were exact quarters: see [`outward`].
     fn coverage(&mut self, window: [Interval; 2], parent: &Open, levels: u32, cost: &mut Cost) -> [f64; 2] {
-        let ([left, right], [below, above]) = (halves(window[0]), halves(window[1]));
-        let quarters = [[left, below], [right, below], [left, above], [right, above]];
+        let quarters = quarters(window);
         let open = quarters.map(|[x, y]| {
             let fan = self.task.film.fan_of(x, y);
             narrow(&self.surfaces, &fan, parent, &mut self.stack, &mut self.work, cost)
@@ -211,6 +232,12 @@ fn outward([lo, hi]: [f64; 2]) -> [f64; 2] {
 fn halves(t: Interval) -> [Interval; 2] {
     let mid = t.mid();
     [Interval::new(t.lo(), mid), Interval::new(mid, t.hi())]
+}
+
+/// The four quarters of a window of the film.
+fn quarters(window: [Interval; 2]) -> [[Interval; 2]; 4] {
+    let ([left, right], [below, above]) = (halves(window[0]), halves(window[1]));
+    [[left, below], [right, below], [left, above], [right, above]]
 }
 
 /// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one.

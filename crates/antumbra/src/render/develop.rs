@@ -20,9 +20,10 @@ impl Frame {
     /// As [`Frame::planes`].
     pub fn picture(&self, look: &Look) -> Result<Planes, Error> {
         let factor = self.factor(look.exposure);
+        let depth = self.depth();
         let mut samples = Vec::with_capacity(3 * self.rgb.len());
         for (index, color) in self.rgb.iter().enumerate() {
-            let ink = if look.outline { 1.0 - INK * self.bend(index) } else { 1.0 };
+            let ink = if look.outline { 1.0 - INK * self.bend(index, depth) } else { 1.0 };
             samples.extend(toned(color.map(|c| c * ink * factor), look.tone));
         }
         let mut planes = Planes::new();
@@ -48,9 +49,17 @@ impl Frame {
         }
     }
 
+    /// The length by which steps in depth are judged where that is less than the distance itself, as for a camera far away:
+    /// a few times the depth of what is met.
+    fn depth(&self) -> f64 {
+        let met = || self.t_lo.iter().copied().filter(|t| t.is_finite());
+        let (near, far) = met().fold((f64::INFINITY, 0.0_f64), |(a, b), t| (a.min(t), b.max(t)));
+        if far > near { 3.0 * (far - near) } else { f64::INFINITY }
+    }
+
     /// How much of an outline a pixel is, 0 to 1: it meets something, and a neighbour meets nothing, something far behind
     /// it, or a surface that lies otherwise.
-    fn bend(&self, index: usize) -> f32 {
+    fn bend(&self, index: usize, depth: f64) -> f32 {
         let here = self.t_lo[index];
         if here.is_nan() {
             return 0.0;
@@ -70,7 +79,7 @@ impl Frame {
             }
             let cosine: f32 = (0..3).map(|k| normal[k] * self.normal[at][k]).sum();
             let turned = ((0.92 - cosine) / 0.5).clamp(0.0, 1.0);
-            let behind = ((((there - here) / here) as f32 - 0.015) / 0.03).clamp(0.0, 1.0);
+            let behind = ((((there - here) / here.min(depth)) as f32 - 0.015) / 0.03).clamp(0.0, 1.0);
             most.max(turned).max(behind)
         })
     }

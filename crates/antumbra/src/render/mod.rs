@@ -5,6 +5,7 @@
 mod book;
 mod by_paper;
 mod by_proof;
+mod crease;
 mod develop;
 mod frame;
 mod irradiance;

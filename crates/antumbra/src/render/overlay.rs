@@ -107,7 +107,7 @@ impl Frame {
             ([250, 236, 180], "lit (all of each light)"),
             ([214, 96, 60], "penumbra (a part of them)"),
             ([40, 52, 120], "dark (none of any)"),
-            ([230, 40, 200], "bracket wider than the tolerance"),
+            ([0, 210, 190], "bracket wider than the tolerance"),
         ];
         let kinds = (0..self.verdict.len()).map(|i| {
             // Of all the light: the bounds of the least and the most visible light.

@@ -2,6 +2,7 @@
 use super::book::Book;
 use super::by_paper;
 use super::by_proof::{self, BLOCK};
+use super::crease;
 use super::state::{self, StateError, Stopped};
 use super::task::Task;
 use super::{Error, Frame, Method, RenderSpec, RunSpec, Stats};
@@ -253,19 +254,26 @@ impl Renderer {
                 self.stage = Stage::Primary;
                 return;
             }
-            Stage::Edges | Stage::Done => {
-                self.book.finish_colors(&self.task);
-                self.stage = Stage::Done;
-                return;
-            }
-            Stage::Primary | Stage::Shadow => {}
+            Stage::Done => return,
+            Stage::Primary | Stage::Shadow | Stage::Edges => {}
         }
         let end = (self.next_tile + 4 * self.pool.current_num_threads()).min(self.tiles());
         let batch = self.next_tile..end;
-        self.next_tile += if self.stage == Stage::Primary { self.primary(batch) } else { self.shadows(batch) };
+        self.next_tile += match self.stage {
+            Stage::Primary => self.primary(batch),
+            Stage::Shadow => self.shadows(batch),
+            _ => self.creases(batch),
+        };
         if self.next_tile == self.tiles() {
             self.next_tile = 0;
-            self.stage = if self.stage == Stage::Primary { Stage::Shadow } else { Stage::Edges };
+            self.stage = match self.stage {
+                Stage::Primary => Stage::Shadow,
+                Stage::Shadow => Stage::Edges,
+                _ => {
+                    self.book.finish_colors(&self.task);
+                    Stage::Done
+                }
+            };
         }
     }
 
@@ -303,6 +311,21 @@ impl Renderer {
         });
         let done = found.len();
         found.into_iter().flatten().for_each(|light| self.book.put_light(&self.task, &light));
+        done
+    }
+
+    /// Looks closer at inner edges in tiles and tells how many of them are done. The paper's pictures have none.
+    fn creases(&mut self, batch: Range<usize>) -> usize {
+        if self.task.method != Method::Certified {
+            return batch.len();
+        }
+        let this = &*self;
+        let found = this.each(batch, |turn| {
+            let pixels = this.book.creases(&this.task, this.pixels(turn));
+            crease::grids(&this.task, &pixels)
+        });
+        let done = found.len();
+        found.into_iter().for_each(|edges| self.book.put_creases(edges));
         done
     }
 

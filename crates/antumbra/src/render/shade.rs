@@ -42,12 +42,12 @@ pub(super) fn backdrop(behind: &Backdrop, film: &Film, column: f64, row: f64) ->
     behind.color.map(|c| c * fall)
 }
 
-/// The colour of a point under lights, seen from `eye`.
+/// The colour of a point under lights, seen from a camera (`eye` and `target`).
 pub(super) fn shade<'a>(
     p: &Point,
     lights: impl Iterator<Item = Lamp<'a>>,
     sky: &Sky,
-    eye: Vec3,
+    [eye, target]: [Vec3; 2],
     backdrop: [f64; 3],
     scale: f64,
 ) -> [f64; 3] {
@@ -85,8 +85,9 @@ pub(super) fn shade<'a>(
     if !p.floor {
         return color;
     }
-    // The endless floor melts into the backdrop.
-    let far = (p.position - eye).length() / (8.0 * scale);
+    // The endless floor melts into the backdrop. How far away the camera itself is does not count, beyond the usual.
+    let aside = ((eye - target).length() - 6.0 * scale).max(0.0);
+    let far = ((p.position - eye).length() - aside) / (8.0 * scale);
     let fade = (far - 0.6).clamp(0.0, 1.0);
     std::array::from_fn(|i| color[i] + (backdrop[i] - color[i]) * fade)
 }

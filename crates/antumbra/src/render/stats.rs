@@ -61,7 +61,9 @@ pub struct Stats {
     pub primary_evaluations: u64,
     /// ... to find the shadows.
     pub shadow_evaluations: u64,
-    /// The sum of these three.
+    /// ... to smooth edges within what is met.
+    pub edge_evaluations: u64,
+    /// The sum of these four.
     pub evaluations: u64,
     /// Time for the grid.
     pub grid_seconds: f64,
@@ -85,7 +87,10 @@ impl Stats {
     /// With the sums filled in.
     pub(super) fn totalled(&self) -> Self {
         Self {
-            evaluations: self.grid_evaluations + self.primary_evaluations + self.shadow_evaluations,
+            evaluations: self.grid_evaluations
+                + self.primary_evaluations
+                + self.shadow_evaluations
+                + self.edge_evaluations,
             seconds: self.grid_seconds + self.primary_seconds + self.shadow_seconds + self.shading_seconds,
             ..self.clone()
         }

@@ -7,7 +7,7 @@ use crate::geom::{Beam, Film, Rect, Vec3};
 use crate::paper::Settings;
 use crate::scene::{ColorMap, Coloring, Colors, Light, Object, Scene};
 use crate::shadow::Tolerance;
-use crate::trace::{Sign, Surface};
+use crate::trace::{Effort, Sign, Surface};
 use antumbra_interval::Interval;
 use std::sync::Arc;
 
@@ -24,7 +24,12 @@ pub(super) struct Task {
     pub(super) settings: Settings,
     pub(super) tolerance: Tolerance,
     pub(super) method: Method,
+    /// How far rays go that only give colours.
+    pub(super) glance: Effort,
 }
+
+/// From this distance on, in scales of the scene, a glance that is exact for its distance is none for the scene.
+const FAR: f64 = 100.0;
 
 impl Task {
     /// # Errors
@@ -59,7 +64,9 @@ impl Task {
         let scaled = |light: &Light| Light { rect: light.rect.scaled(spec.light_scale), ..*light };
         let lights: Vec<Light> = scene.lights.iter().map(scaled).collect();
         let full = lights.iter().map(|light| full(scene.view.target, &light.rect)).collect();
-        Ok(Self { scene, objects, has_floor, film, lights, full, settings, tolerance, method: spec.method })
+        let distance = (scene.view.eye - scene.view.target).length();
+        let glance = if distance > FAR * scene.scale() { Effort::FINE } else { Effort::COARSE };
+        Ok(Self { scene, objects, has_floor, film, lights, full, settings, tolerance, method: spec.method, glance })
     }
 
     /// The objects as surfaces.

@@ -104,7 +104,7 @@ impl Animation {
             file.scene(name)
         };
         let automatic = file.surface.iter().any(|s| s.clip.is_none());
-        let framed = file.camera.is_some();
+        let framed = file.camera.is_some_and(|c| c.eye.is_some() && (c.angle.is_some() || c.width.is_some()));
         let mut whole = true;
         if automatic {
             let scenes: Vec<Scene> =

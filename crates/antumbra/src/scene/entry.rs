@@ -1,6 +1,6 @@
 //! The tables of a scene file, and what they mean.
 use super::file::{FileError, finite, value_error};
-use super::{Coloring, Error, Field, Finish, Light, Object, View, extent};
+use super::{Coloring, Error, Field, Finish, Light, Object, extent};
 use crate::expr::Formula;
 use crate::geom::{Box3, Clip, Rect, Vec3};
 use crate::tape::Tape;
@@ -136,17 +136,28 @@ pub struct LightEntry {
     pub strength: Option<f64>,
 }
 
-/// A perspective camera; up is z.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+/// A camera; up is z. What is left out is chosen so that everything is seen.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 #[serde(deny_unknown_fields)]
 pub struct CameraEntry {
     /// Where it stands.
-    pub eye: [f64; 3],
-    /// What it looks at; by default the origin.
-    #[serde(default)]
-    pub target: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub eye: Option<[f64; 3]>,
+    /// Instead of `eye`: the direction in which it stands, seen from the target; how far is chosen.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub from: Option<[f64; 3]>,
+    /// What it looks at; by default the origin, or the middle of everything if `eye` is left out.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub target: Option<[f64; 3]>,
     /// Full angle over the shorter side of the picture, degrees.
-    pub angle: f64,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub angle: Option<f64>,
+    /// Whether parallel lines stay parallel: see [`View::orthographic`].
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub orthographic: Option<bool>,
+    /// Of an orthographic camera: the length that the shorter side of the picture shows.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub width: Option<f64>,
 }
 
 /// A horizontal floor.
@@ -300,20 +311,6 @@ impl ClipEntry {
             sides[k] = Interval::new(lo, hi);
         }
         Ok(Clip::Box(Box3(sides)))
-    }
-}
-
-impl CameraEntry {
-    pub(super) fn view(&self) -> Result<View, FileError> {
-        let Self { eye, target, angle } = *self;
-        finite("camera", &[eye, target].concat())?;
-        if eye == target {
-            return Err(value_error("camera", "eye and target are the same point"));
-        }
-        if !(0.01..=170.0).contains(&angle) {
-            return Err(value_error("camera.angle", format!("must be from 0.01 to 170 degrees, not {angle}")));
-        }
-        Ok(View { eye: Vec3(eye), target: Vec3(target), fov_deg: angle })
     }
 }
 

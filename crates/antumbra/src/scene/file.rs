@@ -1,5 +1,6 @@
 //! Scenes as text: TOML files, read with errors that name line and key, and written so that they can be read again.
 use super::entry::{CameraEntry, ClipEntry, ColorBy, FloorEntry, LightEntry, SurfaceEntry};
+use super::place::advice;
 use super::{About, Backdrop, Colors, Exposure, Light, Look, Object, Output, Scene, Sky, View, framing};
 use crate::geom::Clip;
 use serde::{Deserialize, Serialize};
@@ -46,7 +47,7 @@ pub struct SceneFile {
 
 /// A number with a name.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "a parameter is a number, or { value = .., min = .., max = .. }")]
 pub enum Parameter {
     /// Its value; a decimal is meant exactly.
     Value(f64),
@@ -125,8 +126,8 @@ impl SceneFile {
     pub fn parse(text: &str) -> Result<Self, FileError> {
         toml::from_str(text).map_err(|e| {
             let mut message = e.to_string().trim_end().to_owned();
-            if let Some(near) = suggestion(e.message()) {
-                message = format!("{message}\ndid you mean `{near}`?");
+            if let Some(advice) = advice(e.message(), text, e.span()) {
+                message = format!("{message}\n{advice}");
             }
             FileError::Shape { message, span: e.span() }
         })
@@ -175,13 +176,39 @@ impl SceneFile {
             parameters: BTreeMap::new(),
             surface: scene.objects.iter().map(surface).collect(),
             light: Some(scene.lights.iter().map(light).collect()),
-            camera: Some(CameraEntry { eye: eye.0, target: target.0, angle: fov_deg }),
+            camera: Some(CameraEntry {
+                eye: Some(eye.0),
+                target: Some(target.0),
+                angle: Some(fov_deg),
+                ..CameraEntry::default()
+            }),
             floor: scene.floor_shown.then_some(FloorEntry { height: scene.floor_height }),
             sky: Some(scene.sky),
             backdrop: Some(scene.backdrop),
             look: Some(scene.look),
             output: (scene.output != Output::default()).then_some(scene.output),
         }
+    }
+
+    /// The same file with everything filled in that was left out. Parameters stay parameters, formulas and clips as they are
+    /// written. What it prints is the same scene.
+    ///
+    /// # Errors
+    /// Those of [`SceneFile::scene`].
+    pub fn completed(&self, name: &str) -> Result<Self, FileError> {
+        let mut full = Self::of(&self.scene(name)?);
+        full.parameters.clone_from(&self.parameters);
+        for (entry, own) in full.surface.iter_mut().zip(&self.surface) {
+            *entry = SurfaceEntry {
+                formula: own.formula.clone(),
+                clip: own.clip.or(entry.clip),
+                field: own.field.clone(),
+                transform: own.transform,
+                caps: own.caps,
+                ..entry.clone()
+            };
+        }
+        Ok(full)
     }
 
     /// The text of the file; [`SceneFile::parse`] reads it back.
@@ -237,7 +264,7 @@ impl SceneFile {
         let mut scene = framing::scene(name.to_owned(), title, objects);
         scene.about = self.about.clone();
         if let Some(camera) = self.camera {
-            scene.view = camera.view()?;
+            scene.view = camera.view(&framing::Stage::of(&scene.objects))?;
         }
         if let Some(lights) = &self.light {
             let light = |(k, entry): (usize, &LightEntry)| entry.light(&format!("light[{}]", k + 1));
@@ -287,12 +314,4 @@ fn check_look(scene: &Scene) -> Result<(), FileError> {
         return Err(value_error("output.tolerance", "must be from 1e-9 to 1"));
     }
     Ok(())
-}
-
-/// The known key that is nearest to an unknown one, out of TOML's message.
-fn suggestion(message: &str) -> Option<String> {
-    let mut names = message.strip_prefix("unknown field ")?.split('`').skip(1).step_by(2);
-    let unknown = names.next()?;
-    let near = |name: &&str| strsim::damerau_levenshtein(unknown, name);
-    names.min_by_key(near).filter(|name| near(name) <= 1 + unknown.len() / 3).map(str::to_owned)
 }

@@ -16,13 +16,21 @@ pub enum Extent {
 }
 
 impl Extent {
-    /// The box to draw.
+    /// The box to draw: with some room around what is flat, and around a point a cube of half side 1, so that points and
+    /// curves are looked at from a sensible distance.
     #[must_use]
     pub fn clip(&self) -> Box3 {
-        match self {
+        let b = match self {
             Self::Bounded(b) | Self::Open(b) => *b,
-            Self::Nowhere => Box3::cube(1.0),
-        }
+            Self::Nowhere => return Box3::cube(1.0),
+        };
+        let (half, middle) = (b.half_extent(), b.mid());
+        let widest = half.0.into_iter().fold(0.0, f64::max);
+        let least = if widest < POINT * (1.0 + middle.length()) { 1.0 } else { FLAT * widest };
+        Box3(std::array::from_fn(|k| {
+            let room = (least - half[k]).max(0.0);
+            b[k] + Interval::new(-room, room)
+        }))
     }
 }
 
@@ -34,6 +42,10 @@ const WORK: usize = 400_000_000;
 const FARTHEST: f64 = (1 << 20) as f64;
 /// Half sizes of a clip box by which its neighbourhood reaches further.
 const NEIGHBOURHOOD: f64 = 10.0;
+/// What is smaller than this share of its distance from the origin is looked at as a point.
+const POINT: f64 = 1e-6;
+/// Least half size of a box, as a share of its largest.
+const FLAT: f64 = 0.05;
 /// Half the side of the part of an open surface that is drawn.
 const OPEN_HALF: f64 = 3.0;
 
@@ -125,29 +137,64 @@ fn hull_of_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace) -> Optio
     hull
 }
 
-/// A scene around objects, at least one: the camera sees the box around their clips from the front, a little to the right and above; a square
-/// light of a tenth of the picture's width (paper, section 4) hangs above, to the left.
+/// Where everything is: what an automatic camera goes by.
+pub(super) struct Stage {
+    bounds: Box3,
+    /// The clips cut nothing away.
+    whole: bool,
+    /// Middle of everything.
+    pub(super) centre: Vec3,
+    /// Half the largest edge of the box around it.
+    radius: f64,
+}
+
+impl Stage {
+    /// From where one looks: from the front, a little to the right and above. No small integers: many a plane, x = z for
+    /// one, would be seen from its edge. Times the radius it is the usual distance.
+    pub(super) const FROM: Vec3 = Vec3([2.6, -4.3, 2.9]);
+
+    /// That of objects, at least one.
+    pub(super) fn of(objects: &[Object]) -> Self {
+        let bounds = objects.iter().map(|o| o.clip().bounds()).reduce(Box3::hull).unwrap_or(Box3::cube(1.0));
+        let whole = objects.iter().all(|o| o.region() != o.clip());
+        let radius = bounds.half_extent().0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
+        Self { bounds, whole, centre: bounds.mid(), radius }
+    }
+
+    /// The usual distance of the camera.
+    pub(super) fn distance(&self) -> f64 {
+        Self::FROM.length() * self.radius
+    }
+
+    /// How far from a target there is something to see: all of the box where it cuts surfaces off; where they are whole, the
+    /// ellipsoid inside and a margin (corners are mostly empty then).
+    fn reach(&self, target: Vec3) -> f64 {
+        self.bounds.half_extent().length() * if self.whole { 0.78 } else { 1.0 } + (target - self.centre).length()
+    }
+
+    /// The full angle, in degrees, that shows all of that.
+    pub(super) fn angle(&self, eye: Vec3, target: Vec3) -> f64 {
+        2.0 * core_math::asin((self.reach(target) / (eye - target).length()).min(0.9)).to_degrees()
+    }
+
+    /// The width that shows all of it without perspective.
+    pub(super) fn width(&self, target: Vec3) -> f64 {
+        2.0 * self.reach(target)
+    }
+}
+
+/// A scene around objects, at least one: the camera sees everything; a square light of a tenth of the picture's width (paper,
+/// section 4) hangs above, to the left.
 pub(super) fn scene(name: String, title: String, objects: Vec<Object>) -> Scene {
-    let bounds = objects.iter().map(|o| o.clip().bounds()).reduce(Box3::hull).unwrap_or(Box3::cube(1.0));
-    let whole = objects.iter().all(|o| o.region() != o.clip());
-    let (centre, half) = (bounds.mid(), bounds.half_extent());
-    let radius = half.0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-    // No small integers: many a plane, x = z for one, would be seen from its edge.
-    let eye = centre + Vec3::new(2.6, -4.3, 2.9) * radius;
+    let stage = Stage::of(&objects);
+    let Stage { bounds, centre, radius, .. } = stage;
+    let eye = centre + Stage::FROM * radius;
     let light = Light::white(Rect::horizontal(centre + Vec3::new(-1.0, -2.0, 6.0) * radius, 0.25 * radius));
-    let view = View { eye, target: centre, fov_deg: angle_over(&bounds, eye, centre, whole) };
+    let view = View { eye, target: centre, fov_deg: stage.angle(eye, centre) };
     let floor_height = bounds[2].lo() - 0.05 * radius;
     let (sky, backdrop, look, output) = Default::default();
     let (about, floor_shown, lights) = (None, false, vec![light]);
     Scene { name, title, about, floor_height, floor_shown, view, lights, objects, sky, backdrop, look, output }
-}
-
-/// The full angle, in degrees, that shows a box and what is in it: all of it where it cuts surfaces off; where they are whole, the
-/// ellipsoid inside and a margin (corners are mostly empty then).
-fn angle_over(clip: &Box3, eye: Vec3, centre: Vec3, whole: bool) -> f64 {
-    let distance = (eye - centre).length();
-    let reach = clip.half_extent().length() * if whole { 0.78 } else { 1.0 };
-    2.0 * core_math::asin((reach / distance).min(0.9)).to_degrees()
 }
 
 #[cfg(test)]
@@ -170,6 +217,16 @@ mod tests {
                 assert!(b[axis].hi() >= half && b[axis].hi() < 1.2 * half, "{text}: {:?}", b[axis]);
             }
         }
+    }
+
+    #[test]
+    fn points_and_curves_get_room() {
+        for text in ["x^2 + y^2 + z^2 = 0", "(x - 3)^2 + (y + 1)^2 + z^2 = 0"] {
+            let clip = extent_of(text).clip();
+            assert!((0..3).all(|k| (0.9..3.0).contains(&clip[k].width())), "{text}: {clip:?}");
+        }
+        let clip = extent_of("(x^2 + y^2 - 1)^2 + z^2 = 0").clip();
+        assert!(clip[2].width() >= 0.09 && clip[0].width() < 2.6, "{clip:?}");
     }
 
     #[test]

@@ -193,7 +193,7 @@ impl Tone {
 
 /// Brightness of a picture.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(untagged)]
+#[serde(untagged, expecting = "the exposure is a number of stops, or \"auto\"")]
 pub enum Exposure {
     /// So many times twice as bright.
     Stops(f64),

@@ -1,6 +1,7 @@
 //! What is to be drawn: objects, light, camera, colours; the presets and the gallery; and a framing for any formula.
 mod about;
 mod animation;
+mod camera;
 mod entry;
 mod file;
 mod framing;
@@ -9,10 +10,12 @@ mod light;
 mod look;
 mod object;
 mod parameter;
+mod place;
 mod presets;
 
 pub use about::About;
 pub use animation::{Animation, Course, Motion};
+pub use camera::View;
 pub use entry::{CameraEntry, ClipEntry, ColorBy, FloorEntry, LightEntry, SurfaceEntry, TransformEntry};
 pub use file::{FileError, Parameter, Ranged, SceneFile};
 pub use framing::{Extent, extent};
@@ -23,7 +26,7 @@ pub use object::{Colors, Error, Object};
 pub use parameter::number;
 pub use presets::{PRESETS, Preset, preset};
 
-use crate::geom::{Box3, Camera, Clip, Vec3};
+use crate::geom::{Box3, Clip};
 use antumbra_interval::Interval;
 
 /// A scene, complete and valid.
@@ -53,25 +56,6 @@ pub struct Scene {
     pub look: Look,
     /// Size and tolerance, where nobody says otherwise.
     pub output: Output,
-}
-
-/// Position and angle of the camera.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct View {
-    /// Where it stands.
-    pub eye: Vec3,
-    /// What it looks at.
-    pub target: Vec3,
-    /// Full angle over the shorter side of the picture, degrees.
-    pub fov_deg: f64,
-}
-
-impl View {
-    /// The camera for a picture of `width / height = aspect`.
-    #[must_use]
-    pub fn camera(&self, aspect: f64) -> Camera {
-        Camera::look_at(self.eye, self.target, self.fov_deg, aspect)
-    }
 }
 
 impl Scene {

@@ -54,11 +54,11 @@ fn every_surface_is_in_its_picture() {
     for entry in GALLERY {
         let scene = Arc::new(entry.scene().unwrap());
         // Shadows are not the question here.
-        let spec = RenderSpec { width: 12, height: 12, tolerance: 1.0, rectangles: 1, ..RenderSpec::default() };
+        let spec = RenderSpec { width: 20, height: 20, tolerance: 1.0, rectangles: 1, ..RenderSpec::default() };
         let mut renderer = Renderer::new(scene, spec, RunSpec::default()).unwrap();
         while !renderer.refine(Duration::from_secs(1)) {}
         let stats = renderer.stats();
-        assert!(stats.proved_hit >= 10, "{}: {} hits", entry.name, stats.proved_hit);
+        assert!(stats.proved_hit >= 25, "{}: {} hits", entry.name, stats.proved_hit);
         assert!(stats.proved_empty >= 4, "{}: the picture is full", entry.name);
     }
 }

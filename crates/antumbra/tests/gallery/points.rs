@@ -60,7 +60,9 @@ fn parametrisations_lie_on_their_surfaces() {
     // Gielis' superformula with m = 5, n1 = 1, n2 = n3 = 4, turned upright by a half circle.
     parametrised("supershape", |u, v| {
         let radius = 1.0 / ((1.25 * u).cos().powi(4) + (1.25 * u).sin().powi(4));
-        [radius * u.cos() * v.cos(), radius * u.sin() * v.cos(), v.sin() / 3.0_f64.sqrt()]
+        // Latitudes end at the poles: beyond them five lobes would point the other way.
+        let across = radius * v.cos().abs();
+        [across * u.cos(), across * u.sin(), v.sin() / 3.0_f64.sqrt()]
     });
     parametrised("catenoid", |u, v| {
         let z = (v - 3.0) / 3.0;
