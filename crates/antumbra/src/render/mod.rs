@@ -17,6 +17,7 @@ mod spec;
 mod state;
 mod stats;
 mod task;
+mod visibility;
 
 pub use frame::{Frame, LightPlanes};
 pub use overlay::Overlay;

@@ -4,6 +4,7 @@ use super::by_paper;
 use super::by_proof::{self, BLOCK};
 use super::state::{self, StateError, Stopped};
 use super::task::Task;
+use super::visibility;
 use super::{Error, Frame, Method, RenderSpec, RunSpec, Stats};
 use crate::grid::Grid;
 use crate::scene::Scene;
@@ -275,7 +276,7 @@ impl Renderer {
         let found = this.each(batch, |turn| match this.task.method {
             Method::Certified => {
                 let (column, row) = this.corner(turn);
-                by_proof::primary(&this.task, column, row)
+                visibility::primary(&this.task, column, row)
             }
             Method::Paper(_) => {
                 let rays = this.task.method.uses_rays();

@@ -214,6 +214,16 @@ impl<F: Packed> Block<F> {
         }
     }
 
+    /// Writes the first components of one lane; the others hold anything. Panics if there are too many.
+    #[inline]
+    pub fn set_first<G: Packed>(&mut self, slot: usize, lane: usize, x: &G) {
+        let (first, k) = self.place(slot, lane);
+        let part = &mut self.memory[first..first + F::COMPONENTS][..G::COMPONENTS];
+        for (i, vector) in part.iter_mut().enumerate() {
+            vector.0[k] = x.component(i);
+        }
+    }
+
     /// Reads one lane.
     #[inline]
     #[must_use]
