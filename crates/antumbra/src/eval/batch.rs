@@ -2,7 +2,7 @@
 //!
 //! A tape is run once for up to [`MOST`] questions. Every lane has the bits of the one interpreter on single numbers
 //! ([`run`](super::run)), on every machine: so whether, and with which neighbours, a question is asked in a batch changes no answer.
-use super::Number;
+use super::{Gradient, Number};
 use crate::expr::{Binary, Unary};
 use crate::geom::{Beam, Box3, Fan};
 use crate::tape::{Op, Tape};
@@ -68,13 +68,13 @@ pub(super) struct Scratch {
 
 impl Default for Scratch {
     fn default() -> Self {
-        Self {
-            level: Level::detect(),
-            ranges: Block::default(),
-            rays: Block::default(),
-            beams: Block::default(),
-            places: Vec::new(),
-        }
+        Self::on(Level::detect())
+    }
+}
+
+impl Scratch {
+    pub(super) fn on(level: Level) -> Self {
+        Self { level, ranges: Block::default(), rays: Block::default(), beams: Block::default(), places: Vec::new() }
     }
 }
 
@@ -196,6 +196,111 @@ impl Scratch {
             out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
         }
         Unasked(0)
+    }
+}
+
+/// Interval slots of a gradient: value and partial derivatives.
+const PARTS: usize = 4;
+/// Interval slots before those of the tape: the coordinates, and two for intermediate results.
+const OWN_OF_GRADIENTS: usize = 3 * PARTS + 2;
+
+impl Scratch {
+    /// Enclosures of value and gradient over boxes.
+    pub(super) fn gradients(&mut self, tape: &Tape, regions: &[Box3], out: &mut [Gradient]) -> Unasked {
+        let Self { ranges: block, .. } = self;
+        for (regions, out) in regions.chunks(MOST).zip(out.chunks_mut(MOST)) {
+            let lanes = regions.len();
+            if lanes < FEWEST {
+                return Unasked(lanes);
+            }
+            block.prepare(OWN_OF_GRADIENTS + PARTS * tape.slots(), lanes);
+            for axis in 0..3 {
+                let slot = PARTS * axis;
+                regions.iter().enumerate().for_each(|(lane, region)| block.set(slot, lane, region[axis]));
+                block.pad(slot, lanes);
+                for k in 0..3 {
+                    block.fill(slot + 1 + k, if k == axis { Interval::ONE } else { Interval::ZERO });
+                }
+            }
+            let mut machine = Gradients { block, level: self.level, lanes };
+            let value = machine.run(tape, &mut self.places);
+            out.iter_mut().enumerate().for_each(|(lane, out)| *out = machine.get(value, lane));
+        }
+        Unasked(0)
+    }
+}
+
+/// Gradients in a block of intervals: step by step the operations of [`Gradient`]'s `Number`.
+struct Gradients<'a> {
+    block: &'a mut Block<Interval>,
+    level: Level,
+    lanes: usize,
+}
+
+impl Gradients<'_> {
+    fn run(&mut self, tape: &Tape, places: &mut Vec<usize>) -> usize {
+        places.clear();
+        places.resize(tape.slots(), 0);
+        let mut last = 0;
+        for clause in tape.clauses() {
+            let (a, b) = (places[clause.a as usize], places[clause.b as usize]);
+            let out = OWN_OF_GRADIENTS + PARTS * clause.out as usize;
+            last = out;
+            match clause.op {
+                Op::Constant(index) => {
+                    self.block.fill(out, tape.constants()[index as usize]);
+                    (1..PARTS).for_each(|k| self.block.fill(out + k, Interval::ZERO));
+                }
+                Op::Axis(axis) => last = PARTS * axis as usize,
+                Op::Unary(Unary::Neg) => (0..PARTS).for_each(|k| self.ring(Ring::Neg, out + k, a + k, a + k)),
+                Op::Unary(Unary::Sqr) => self.sqr(out, a),
+                Op::Binary(Binary::Add) => (0..PARTS).for_each(|k| self.ring(Ring::Add, out + k, a + k, b + k)),
+                Op::Binary(Binary::Sub) => (0..PARTS).for_each(|k| self.ring(Ring::Sub, out + k, a + k, b + k)),
+                Op::Binary(Binary::Mul) => self.mul(out, a, b),
+                Op::Unary(op) => self.map(out, a, a, |x, _| x.unary(op)),
+                Op::Powi(n) => self.map(out, a, a, |x, _| x.powi(n)),
+                Op::Binary(op) => self.map(out, a, b, |x, y| x.binary(op, y)),
+            }
+            places[clause.out as usize] = last;
+        }
+        last
+    }
+
+    fn ring(&mut self, op: Ring, out: usize, a: usize, b: usize) {
+        self.block.ring(self.level, op, out, a, b);
+    }
+
+    /// `(a b)' = a b' + a' b`; the value last, as the slots may be the same.
+    fn mul(&mut self, out: usize, a: usize, b: usize) {
+        let [left, right] = [3 * PARTS, 3 * PARTS + 1];
+        for k in 1..PARTS {
+            self.ring(Ring::Mul, left, a, b + k);
+            self.ring(Ring::Mul, right, a + k, b);
+            self.ring(Ring::Add, out + k, left, right);
+        }
+        self.ring(Ring::Mul, out, a, b);
+    }
+
+    /// `(a^2)' = 2 a a'`.
+    fn sqr(&mut self, out: usize, a: usize) {
+        let twice = 3 * PARTS;
+        self.ring(Ring::Add, twice, a, a);
+        (1..PARTS).for_each(|k| self.ring(Ring::Mul, out + k, twice, a + k));
+        self.ring(Ring::Sqr, out, a, a);
+    }
+
+    fn map(&mut self, out: usize, a: usize, b: usize, f: impl Fn(Gradient, Gradient) -> Gradient) {
+        for lane in 0..self.lanes {
+            let x = f(self.get(a, lane), self.get(b, lane));
+            self.block.set(out, lane, x.value);
+            (0..3).for_each(|k| self.block.set(out + 1 + k, lane, x.partials[k]));
+        }
+        (0..PARTS).for_each(|k| self.block.pad(out + k, self.lanes));
+    }
+
+    fn get(&self, slot: usize, lane: usize) -> Gradient {
+        let at = |k: usize| self.block.get(slot + k, lane);
+        Gradient { value: at(0), partials: [at(1), at(2), at(3)] }
     }
 }
 

@@ -4,6 +4,7 @@ use super::{Gradient, PointJet, Regions, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
 use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::lanes::Level;
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Decoration, Interval};
 use std::sync::Arc;
@@ -25,6 +26,14 @@ pub struct Workspace {
     jet_slopes: Vec<SlopeOf<Interval, Jet<Affine<3>>>>,
     points: Vec<PointJet>,
     batch: batch::Scratch,
+}
+
+impl Workspace {
+    /// One whose batches use certain instructions, not the best of this processor. No answer depends on it.
+    #[must_use]
+    pub fn on(level: Level) -> Self {
+        Self { batch: batch::Scratch::on(level), ..Self::default() }
+    }
 }
 
 /// A point on a beam piece, as linear functions of the beam's symbols: (t, i, j) of a camera frustum, (t, u, v) of a
@@ -85,6 +94,12 @@ pub trait Inclusion: Send + Sync {
     fn ranges(&self, pieces: &[RayPiece], out: &mut [Interval], work: &mut Workspace) {
         assert_eq!(pieces.len(), out.len(), "as many answers as questions");
         pieces.iter().zip(out).for_each(|(piece, out)| *out = self.range(&piece.region(), work));
+    }
+
+    /// [`gradient`](Self::gradient) over many boxes. Panics unless there are as many answers as questions.
+    fn gradients(&self, regions: &[Box3], out: &mut [Gradient], work: &mut Workspace) {
+        assert_eq!(regions.len(), out.len(), "as many answers as questions");
+        regions.iter().zip(out).for_each(|(region, out)| *out = self.gradient(region, work));
     }
 
     /// [`ray`](Self::ray) over many pieces. Panics unless there are as many answers as questions.
@@ -235,6 +250,14 @@ impl Inclusion for Tape {
         let Unasked(rest) = work.batch.ranges(self, pieces, out);
         for k in pieces.len() - rest..pieces.len() {
             out[k] = self.range(&pieces[k].region(), work);
+        }
+    }
+
+    fn gradients(&self, regions: &[Box3], out: &mut [Gradient], work: &mut Workspace) {
+        assert_eq!(regions.len(), out.len(), "as many answers as questions");
+        let Unasked(rest) = work.batch.gradients(self, regions, out);
+        for k in regions.len() - rest..regions.len() {
+            out[k] = self.gradient(&regions[k], work);
         }
     }
 

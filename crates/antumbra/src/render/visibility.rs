@@ -5,7 +5,7 @@
 //! after another.
 use super::by_proof::{BLOCK, Block, indices};
 use super::pixel::{Edge, Hit, Known, Pixel};
-use super::task::Task;
+use super::task::{Asked, HitScratch, Task};
 use crate::eval::Workspace;
 use crate::geom::{Beam, Fan};
 use crate::shadow::Receiver;
@@ -15,6 +15,7 @@ use crate::trace::{
 };
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
+use std::sync::Mutex;
 
 /// Blocks up to this side whose frustum is covered by one simple piece are not divided further.
 const SIMPLE: usize = 4;
@@ -62,23 +63,46 @@ enum Stage {
     Edge,
 }
 
-struct Primary<'a> {
-    task: &'a Task,
-    surfaces: Vec<Surface<'a>>,
+/// Scratch memory of one thread: keep it, it only grows.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
     work: Workspace,
     frusta: Frusta,
     rays: trace::Scratch,
+    hits: HitScratch,
 }
 
+/// Scratch memory that no thread has at the moment.
+#[derive(Debug, Default)]
+pub(super) struct Spare(Mutex<Vec<Scratch>>);
+
+impl Spare {
+    /// Some memory, new if there is none.
+    pub(super) fn take(&self) -> Scratch {
+        self.0.lock().ok().and_then(|mut spare| spare.pop()).unwrap_or_default()
+    }
+
+    /// Memory for the next one.
+    pub(super) fn give(&self, scratch: Scratch) {
+        // Poisoned by a panic elsewhere: then it is dropped.
+        if let Ok(mut spare) = self.0.lock() {
+            spare.push(scratch);
+        }
+    }
+}
+
+struct Primary<'a> {
+    task: &'a Task,
+    surfaces: Vec<Surface<'a>>,
+    scratch: &'a mut Scratch,
+}
+
+/// A ray and what it meets; the number is the asker's.
+type Met = (usize, Beam, Meeting);
+
 /// Primary visibility of the block at `(column, row)`, clipped to the picture.
-pub(super) fn primary(task: &Task, column: usize, row: usize) -> Vec<Pixel> {
-    let mut pass = Primary {
-        task,
-        surfaces: task.surfaces(),
-        work: Workspace::default(),
-        frusta: Frusta::default(),
-        rays: trace::Scratch::default(),
-    };
+pub(super) fn primary(task: &Task, column: usize, row: usize, scratch: &mut Scratch) -> Vec<Pixel> {
+    let mut pass = Primary { task, surfaces: task.surfaces(), scratch };
     let nodes = pass.divide((column, row, BLOCK));
     let mut sights = pass.centres(&nodes);
     pass.coverages(&mut sights);
@@ -143,7 +167,8 @@ impl Primary<'_> {
                     parent: before.get(*parent).map_or(&nothing, |p| &p.open),
                 })
                 .collect();
-            narrow(&self.surfaces, &jobs, &mut self.frusta, &mut self.work, |k, open, cost| {
+            let Scratch { frusta, work, .. } = &mut *self.scratch;
+            narrow(&self.surfaces, &jobs, frusta, work, |k, open, cost| {
                 now[k].open = std::mem::take(open);
                 now[k].cost = cost;
             });
@@ -172,7 +197,7 @@ impl Primary<'_> {
 
     /// What the centre rays of all pixels meet that may show something.
     fn centres<'n>(&mut self, nodes: &'n [Node]) -> Vec<Sight<'n>> {
-        let mut sights: Vec<Sight<'n>> = Vec::new();
+        let mut sights: Vec<Sight<'n>> = Vec::with_capacity(BLOCK * BLOCK);
         for node in nodes.iter().filter(|n| n.children.is_empty() && !n.open.certainly_empty()) {
             for index in indices(self.task, node.block) {
                 let (column, row) = (index % self.task.film.width, index / self.task.film.width);
@@ -182,10 +207,13 @@ impl Primary<'_> {
             }
         }
         let rays: Vec<Ray<'_>> = sights.iter().map(|s| Ray { beam: s.ray, open: &s.open.open }).collect();
-        for (sight, (centre, cost)) in sights.iter_mut().zip(self.meet(&rays, Effort::FINE)) {
+        let found = self.meet(&rays, Effort::FINE);
+        let met: Vec<Met> =
+            sights.iter().zip(&found).enumerate().filter_map(|(k, (s, (m, _)))| Some((k, s.ray, (*m)?))).collect();
+        self.hits(&met, |k, hit| sights[k].pixel.hit = Some(hit));
+        for (sight, (centre, cost)) in sights.iter_mut().zip(found) {
             let pixel = &mut sight.pixel;
             pixel.cost = cost;
-            pixel.hit = centre.map(|m| self.hit(&sight.ray, &m));
             pixel.known = match centre {
                 Some(Meeting { reason: None, .. }) => Known::Hit,
                 Some(Meeting { reason: Some(reason), .. }) => Known::Undecided(reason),
@@ -231,7 +259,7 @@ impl Primary<'_> {
                 let before = |p: &&Piece| p.surface != hit.object && p.t.lo() < hit.t.lo();
                 let piece = sight.open.open.iter().find(before)?;
                 let beam = self.task.film.beam(sight.column, sight.row);
-                Some(self.task.hit(piece.surface, &beam, piece.t, None, &mut self.work))
+                Some(self.task.hit(in_front(piece, beam), &mut self.scratch.work))
             });
             sight.stage = if sight.thin.is_none() && pixel.hit.is_some() { Stage::Corners } else { Stage::Edge };
         }
@@ -243,16 +271,23 @@ impl Primary<'_> {
             let mut asked: Vec<&mut Sight<'_>> = sights.iter_mut().filter(|s| s.stage == Stage::Corners).collect();
             let rays: Vec<Ray<'_>> = asked.iter().map(|s| self.part(s, i, j)).collect();
             let found = self.meet(&rays, Effort::COARSE);
-            for ((sight, ray), (meeting, cost)) in asked.iter_mut().zip(&rays).zip(found) {
+            let met: Vec<Met> = rays
+                .iter()
+                .zip(&found)
+                .enumerate()
+                .filter_map(|(k, (ray, (m, _)))| Some((k, ray.beam, (*m)?)))
+                .collect();
+            for (sight, (_, cost)) in asked.iter_mut().zip(found) {
                 sight.pixel.cost += cost;
-                let plain = meeting.zip(sight.pixel.hit).is_some_and(|(m, centre)| {
-                    let corner = self.hit(&ray.beam, &m);
-                    corner.normal.dot(centre.normal) > PLAIN_NORMAL && corner.object == centre.object
-                });
-                if !plain {
-                    sight.stage = Stage::Edge;
-                }
+                sight.stage = Stage::Edge;
             }
+            self.hits(&met, |k, corner| {
+                let like =
+                    |centre: Hit| corner.normal.dot(centre.normal) > PLAIN_NORMAL && corner.object == centre.object;
+                if asked[k].pixel.hit.is_some_and(like) {
+                    asked[k].stage = Stage::Corners;
+                }
+            });
         }
     }
 
@@ -263,12 +298,15 @@ impl Primary<'_> {
         let rays: Vec<Ray<'_>> =
             asked.iter().flat_map(|s| (0..RAYS).map(|k| self.part(s, k % EDGE_RAYS, k / EDGE_RAYS))).collect();
         let found = self.meet(&rays, Effort::COARSE);
-        for (sight, (rays, found)) in asked.iter_mut().zip(rays.chunks(RAYS).zip(found.chunks(RAYS))) {
-            let mut hits = Vec::with_capacity(RAYS);
+        let met: Vec<Met> =
+            rays.iter().zip(&found).enumerate().filter_map(|(k, (ray, (m, _)))| Some((k, ray.beam, (*m)?))).collect();
+        let mut grids: Vec<Vec<Option<Hit>>> = asked.iter().map(|_| vec![None; RAYS]).collect();
+        self.hits(&met, |k, hit| grids[k / RAYS][k % RAYS] = Some(hit));
+        for ((sight, grid), (rays, found)) in asked.iter_mut().zip(grids).zip(rays.chunks(RAYS).zip(found.chunks(RAYS)))
+        {
             let Pixel { known, hit, cost, .. } = &mut sight.pixel;
             for (ray, (meeting, spent)) in rays.iter().zip(found) {
                 *cost += *spent;
-                hits.push(meeting.map(|m| self.hit(&ray.beam, &m)));
                 if let (None, Some(Meeting { reason: None, .. })) = (*hit, meeting)
                     && let Some(m @ Meeting { reason: None, .. }) = self.meet_finely(ray, cost)
                 {
@@ -280,9 +318,9 @@ impl Primary<'_> {
                 && let Some(piece) = sight.open.open.first()
             {
                 let beam = self.task.film.beam(sight.column, sight.row);
-                *hit = Some(self.task.hit(piece.surface, &beam, piece.t, None, &mut self.work));
+                *hit = Some(self.task.hit(in_front(piece, beam), &mut self.scratch.work));
             }
-            sight.pixel.edge = Some(Edge { rays: hits, thin: sight.thin });
+            sight.pixel.edge = Some(Box::new(Edge { rays: grid, thin: sight.thin }));
         }
     }
 
@@ -293,23 +331,30 @@ impl Primary<'_> {
 
     fn meet(&mut self, rays: &[Ray<'_>], effort: Effort) -> Vec<(Option<Meeting>, Cost)> {
         let mut out = Vec::with_capacity(rays.len());
-        first_meetings(&self.surfaces, rays, effort, &mut self.rays, &mut self.work, |_, meeting, cost| {
+        let Scratch { rays: scratch, work, .. } = &mut *self.scratch;
+        first_meetings(&self.surfaces, rays, effort, scratch, work, |_, meeting, cost| {
             out.push((meeting, cost));
         });
         out
     }
 
     fn meet_finely(&mut self, ray: &Ray<'_>, cost: &mut Cost) -> Option<Meeting> {
-        first_meeting(&self.surfaces, &ray.beam, ray.open, Effort::FINE, &mut self.rays, &mut self.work, cost)
+        let Scratch { rays: scratch, work, .. } = &mut *self.scratch;
+        first_meeting(&self.surfaces, &ray.beam, ray.open, Effort::FINE, scratch, work, cost)
     }
 
     fn hit(&mut self, ray: &Beam, m: &Meeting) -> Hit {
-        let hit = self.task.hit(m.surface, ray, m.t, m.before, &mut self.work);
-        let receiver = match (m.reason, m.before) {
-            (None, Some(side)) => Some(Receiver { point: ray.at(m.t), surface: m.surface, side }),
-            _ => None,
-        };
-        Hit { receiver, ..hit }
+        received(self.task.hit(asked(ray, m), &mut self.scratch.work), ray, m)
+    }
+
+    /// The same for many.
+    fn hits(&mut self, met: &[Met], mut found: impl FnMut(usize, Hit)) {
+        let all: Vec<Asked> = met.iter().map(|(_, ray, m)| asked(ray, m)).collect();
+        let Scratch { hits, work, .. } = &mut *self.scratch;
+        self.task.hits(&all, hits, work, |k, hit| {
+            let (asker, ray, m) = &met[k];
+            found(*asker, received(hit, ray, m));
+        });
     }
 
     /// Bounds of the covered shares of windows of the film, as if their parts were exact quarters ([`outward`]), and costs.
@@ -324,7 +369,8 @@ impl Primary<'_> {
         let fan_of = |q: &Window<'_>| self.task.film.fan_of(q.film[0], q.film[1]);
         let jobs: Vec<Frustum<'_>> = quarters.iter().map(|q| Frustum { fan: fan_of(q), parent: q.parent }).collect();
         let mut open: Vec<(Open, Cost)> = Vec::with_capacity(jobs.len());
-        narrow(&self.surfaces, &jobs, &mut self.frusta, &mut self.work, |_, known, cost| {
+        let Scratch { frusta, work, .. } = &mut *self.scratch;
+        narrow(&self.surfaces, &jobs, frusta, work, |_, known, cost| {
             open.push((std::mem::take(known), cost));
         });
         // Where no quarter is settled (a sheet thinner than the pixel, say), going on would only cost.
@@ -361,6 +407,24 @@ impl Primary<'_> {
         }
         sums
     }
+}
+
+fn asked(ray: &Beam, m: &Meeting) -> Asked {
+    Asked { object: m.surface, beam: *ray, t: m.t, before: m.before }
+}
+
+/// With what starts a shadow, where that is proved.
+fn received(hit: Hit, ray: &Beam, m: &Meeting) -> Hit {
+    let receiver = match (m.reason, m.before) {
+        (None, Some(side)) => Some(Receiver { point: ray.at(m.t), surface: m.surface, side }),
+        _ => None,
+    };
+    Hit { receiver, ..hit }
+}
+
+/// Where an open piece of a pixel's beam begins to show.
+fn in_front(piece: &Piece, beam: Beam) -> Asked {
+    Asked { object: piece.surface, beam, t: piece.t, before: None }
 }
 
 /// A part of the film, and what is known of one that it is a part of.

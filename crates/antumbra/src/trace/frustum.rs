@@ -7,17 +7,18 @@ use crate::eval::{FanPiece, Workspace};
 use crate::geom::{Box3, Fan, Passage};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
+use smallvec::{SmallVec, smallvec};
 
 /// What is known of all rays of a frustum. Valid for every part of the frustum.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Known {
     /// The pieces that are open; outside of them no ray meets a surface before `cover`. Ascending per surface.
-    pub open: Vec<Piece>,
+    pub open: SmallVec<[Piece; 3]>,
     /// Every ray meets some surface at a parameter up to this one: proved. Infinite if that is not so.
     pub cover: f64,
     /// Per surface: a sign of f, and a parameter before its first open piece at which f has it on all rays, all of them
     /// inside the surface's region; where proved.
-    front: Vec<Option<(Sign, f64)>>,
+    front: SmallVec<[Option<(Sign, f64)>; 2]>,
 }
 
 impl Known {
@@ -29,7 +30,7 @@ impl Known {
             let t = s.passage(&fan.apex, &directions).outer;
             (!t.is_empty()).then_some(Piece { surface, t })
         });
-        Self { open: open.collect(), cover: f64::INFINITY, front: vec![None; surfaces.len()] }
+        Self { open: open.collect(), cover: f64::INFINITY, front: smallvec![None; surfaces.len()] }
     }
 
     /// No ray meets anything: proved.
@@ -46,7 +47,7 @@ impl Known {
 }
 
 /// Appends a piece; neighbours with one edge are one piece.
-fn join(open: &mut Vec<Piece>, first: usize, piece: Piece) {
+fn join(open: &mut SmallVec<[Piece; 3]>, first: usize, piece: Piece) {
     match open[first..].last_mut() {
         Some(last) if last.t.hi() == piece.t.lo() => last.t = last.t.hull(piece.t),
         _ => open.push(piece),
@@ -165,7 +166,8 @@ impl Search {
     fn begin(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>) {
         self.known.open.clear();
         self.known.cover = job.parent.cover;
-        self.known.front.clone_from(&job.parent.front);
+        self.known.front.clear();
+        self.known.front.extend_from_slice(&job.parent.front);
         self.cost = Cost { beams: 1, evaluations: 0 };
         (self.shape, self.directions, self.next) = (Shape::of(&job.fan), job.fan.directions(), 0);
         self.stack.clear();
@@ -249,8 +251,8 @@ impl Search {
                 && front != sign
                 && at <= inside.lo()
             {
-                let between = job.fan.box_at(Interval::new(at, inside.lo()));
-                if certainly_continuous(function, &between, work) {
+                let between = || job.fan.box_at(Interval::new(at, inside.lo()));
+                if function.continuous_everywhere() || certainly_continuous(function, &between(), work) {
                     self.known.cover = self.known.cover.min(inside.lo());
                     // What lies behind is of no interest.
                     self.stack.clear();

@@ -244,24 +244,22 @@ fn step<V: Vector>(r: V) -> V {
     r.abs().mul(V::splat(PHI)).add(V::splat(ETA))
 }
 
-/// Whether there is a number whose absolute value is larger than 0 and not infinite.
+/// The step outward for the sum `r = fl(a + b)`.
 #[inline(always)]
-fn ordinary<V: Vector>(r: V) -> V::Mask {
-    V::both(V::splat(0.0).lt(r.abs()), r.abs().le(V::splat(f64::MAX)))
+fn sum_error<V: Vector>(a: V, b: V, r: V) -> V {
+    let zero = V::splat(0.0);
+    let inexact = V::both(zero.lt(r.abs()), V::both(zero.lt(a.abs()), zero.lt(b.abs())));
+    V::select(inexact, step(r), zero)
 }
 
 impl<V: Vector> IntervalOf<V> {
-    /// Lanes with a sum of zero or of zeros, which is exact, are left to the scalar operator: they are few.
+    /// A zero term, or a sum that is zero, is exact. Sums that overflow, of empty lanes, or with a NaN are done again.
     #[inline(always)]
     fn plus(self, o: Self) -> (Self, V::Mask) {
-        let (lo, hi, zero) = (self.lo.add(o.lo), self.hi.add(o.hi), V::splat(0.0));
-        let terms = V::both(
-            V::both(zero.lt(self.lo.abs()), zero.lt(o.lo.abs())),
-            V::both(zero.lt(self.hi.abs()), zero.lt(o.hi.abs())),
-        );
-        // The sum of an empty lane, or of one with a NaN, is not ordinary.
-        let proper = V::both(terms, V::both(ordinary(lo), ordinary(hi)));
-        (Self { lo: lo.sub(step(lo)), hi: hi.add(step(hi)) }, proper)
+        let (lo, hi) = (self.lo.add(o.lo), self.hi.add(o.hi));
+        let finite = V::both(lo.abs().le(V::splat(f64::MAX)), hi.abs().le(V::splat(f64::MAX)));
+        let value = Self { lo: lo.sub(sum_error(self.lo, o.lo, lo)), hi: hi.add(sum_error(self.hi, o.hi, hi)) };
+        (value, finite)
     }
 
     /// The scalar operator picks the factors by signs: the same ones here, the second pair where both intervals hold numbers of both
@@ -292,7 +290,23 @@ impl<V: Vector> IntervalOf<V> {
         let (lo, hi) = (lo.sub(step(lo)), hi.add(step(hi)));
         let (lo2, hi2) = (lo2.sub(step(lo2)), hi2.add(step(hi2)));
         let value = Self { lo: V::select(mixed, lo.lesser(lo2), lo), hi: V::select(mixed, hi.greater(hi2), hi) };
-        (value, V::both(self.moderate(), o.moderate()))
+        // 0 times anything bounded is [+0, -0], as it is of the scalar operator.
+        let none = V::either(self.is_zero(), o.is_zero());
+        let value = Self { lo: V::select(none, zero, value.lo), hi: V::select(none, zero.neg(), value.hi) };
+        let bounded = V::both(self.is_zero_or_moderate(), o.is_zero_or_moderate());
+        (value, bounded)
+    }
+
+    /// Just 0.
+    #[inline(always)]
+    fn is_zero(self) -> V::Mask {
+        let zero = V::splat(0.0);
+        V::both(self.lo.abs().le(zero), self.hi.abs().le(zero))
+    }
+
+    #[inline(always)]
+    fn is_zero_or_moderate(self) -> V::Mask {
+        V::either(self.is_zero(), self.moderate())
     }
 
     /// Ends whose products are ordinary numbers. No empty lane, none with a NaN.

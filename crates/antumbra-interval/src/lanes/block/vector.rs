@@ -39,6 +39,8 @@ pub trait Vector: Copy {
     fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
     /// Both.
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// One or the other.
+    fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// Eight times yes.
     fn always() -> Self::Mask;
     /// Bit `i` is answer `i`.
@@ -125,6 +127,10 @@ impl Vector for Plain {
     #[inline(always)]
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask {
         each!(i => a[i] & b[i])
+    }
+    #[inline(always)]
+    fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        each!(i => a[i] | b[i])
     }
     #[inline(always)]
     fn always() -> Self::Mask {

@@ -6,7 +6,7 @@ use super::vector::{Eight, Vector};
 use super::{Act, Packed, act};
 use std::arch::x86_64::{
     __m256d, __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd,
-    _mm256_blendv_pd, _mm256_cmp_pd, _mm256_load_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_set1_pd,
+    _mm256_blendv_pd, _mm256_cmp_pd, _mm256_load_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_or_pd, _mm256_set1_pd,
     _mm256_store_pd, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd, _mm512_add_pd, _mm512_castpd_si512,
     _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_load_pd, _mm512_mask_blend_pd, _mm512_mul_pd, _mm512_set1_epi64,
     _mm512_set1_pd, _mm512_store_pd, _mm512_sub_pd, _mm512_xor_epi64,
@@ -88,6 +88,10 @@ impl Vector for V512 {
         a & b
     }
     #[inline(always)]
+    fn either(a: __mmask8, b: __mmask8) -> __mmask8 {
+        a | b
+    }
+    #[inline(always)]
     fn always() -> __mmask8 {
         u8::MAX
     }
@@ -161,6 +165,10 @@ impl Vector for V256 {
     #[inline(always)]
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask {
         halves!(_mm256_and_pd a, b)
+    }
+    #[inline(always)]
+    fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        halves!(_mm256_or_pd a, b)
     }
     #[inline(always)]
     fn always() -> Self::Mask {
