@@ -189,7 +189,7 @@ pub(crate) enum Audited {
     /// A frame in a folder.
     Folder(PathBuf),
     /// A scene to be rendered.
-    Scene(NamedScene, RenderSpec),
+    Scene(Box<NamedScene>, RenderSpec),
 }
 
 /// Options of `audit`.
@@ -224,7 +224,7 @@ impl AuditOptions {
             None => Audited::Folder(folder.to_owned()),
             Some(scene) => {
                 spec.floor |= scene.scene.floor_shown;
-                Audited::Scene(scene, spec)
+                Audited::Scene(Box::new(scene), spec)
             }
         };
         let json = args.json.map(json_target);

@@ -33,6 +33,7 @@ impl Interval {
     pub const HALF_PI: Self = Self { lo: std::f64::consts::FRAC_PI_2, hi: std::f64::consts::FRAC_PI_2.next_up() };
 
     /// `[lo, hi]`. Panics unless `lo <= hi`, `lo < +inf`, `hi > -inf`.
+    #[inline]
     #[must_use]
     pub const fn new(lo: f64, hi: f64) -> Self {
         assert!(
@@ -42,11 +43,13 @@ impl Interval {
         Self { lo, hi }
     }
     /// `[lo, hi]` if that is an interval.
+    #[inline]
     #[must_use]
     pub const fn try_new(lo: f64, hi: f64) -> Option<Self> {
         if lo <= hi && lo < f64::INFINITY && hi > f64::NEG_INFINITY { Some(Self { lo, hi }) } else { None }
     }
     /// The single finite number `x`. Panics if it is infinite or NaN.
+    #[inline]
     #[must_use]
     pub const fn point(x: f64) -> Self {
         Self::new(x, x)

@@ -16,9 +16,9 @@
 //! **Assumed**: IEEE 754 `+ - * /` and `sqrt` in round-to-nearest with subnormals, which is what Rust defines for `f64`.
 
 /// `2^-53 (1 + 2^-52)`.
-const PHI: f64 = f64::EPSILON / 2.0 * (1.0 + f64::EPSILON);
+pub(crate) const PHI: f64 = f64::EPSILON / 2.0 * (1.0 + f64::EPSILON);
 /// `2^-1074`, the smallest subnormal.
-const ETA: f64 = f64::from_bits(1);
+pub(crate) const ETA: f64 = f64::from_bits(1);
 
 /// A number at most the predecessor of `r`: at most every real that rounds to `r`. `+inf` gives `MAX`.
 #[inline(always)]

@@ -91,8 +91,7 @@ fn a_sheet_that_bounds_nothing_goes() {
 
 #[test]
 fn surfer_files_have_parameters_and_a_ball() {
-    let text =
-        "# made by hand\nsurface_parameter_a=0.25\nsurface_equation=x^2+y^2+a*z^2-0.5\nscale_factor=0.30103\n";
+    let text = "# made by hand\nsurface_parameter_a=0.25\nsurface_equation=x^2+y^2+a*z^2-0.5\nscale_factor=0.30103\n";
     let scene = read(text, Format::Surfer);
     assert!((value(&scene, 0, [1.0, 0.0, 2.0]) - 1.5).abs() < 1e-12);
     let Clip::Ball { radius, .. } = scene.objects[0].clip() else { panic!("{:?}", scene.objects[0].clip()) };

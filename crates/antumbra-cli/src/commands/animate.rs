@@ -176,10 +176,11 @@ fn assemble(
     }
     let movie = Movie { width, height, frames: n, rate: film.rate, frame: &mut frame };
     sink.write(|out| {
-        Ok(match container {
+        match container {
             Container::Gif => movie.write_gif(out)?,
             Container::Apng | Container::Mp4 => movie.write_apng(out)?,
-        })
+        }
+        Ok(())
     })
 }
 

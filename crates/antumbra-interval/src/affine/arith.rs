@@ -38,6 +38,12 @@ impl<const N: usize> Affine<N> {
     #[inline(always)]
     pub fn add_interval(self, k: Interval) -> Self {
         let (m, r) = centre_radius(k);
+        self.add_centre_radius(m, r)
+    }
+
+    /// `x + k` for any number (or function) with `|k - m| <= r`.
+    #[inline(always)]
+    pub(crate) fn add_centre_radius(self, m: f64, r: f64) -> Self {
         let c = self.c + m;
         let t = self.e + r;
         let w = c.abs() + t;

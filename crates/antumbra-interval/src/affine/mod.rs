@@ -50,9 +50,9 @@ pub(crate) const LARGE: f64 = 1.0715086071862673e301;
 /// `e = inf` ([`Affine::UNKNOWN`]) says nothing. Otherwise `c`, `a`, `e` are finite and `e >= 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Affine<const N: usize> {
-    c: f64,
-    a: [f64; N],
-    e: f64,
+    pub(crate) c: f64,
+    pub(crate) a: [f64; N],
+    pub(crate) e: f64,
 }
 
 impl<const N: usize> Affine<N> {

@@ -18,11 +18,14 @@
 //! ```
 #[cfg(target_arch = "x86_64")]
 mod avx512;
+pub mod block;
 mod portable;
 
 use crate::Interval;
 #[cfg(target_arch = "x86_64")]
 pub use avx512::Avx512;
+#[cfg(target_arch = "x86_64")]
+pub use block::Avx2;
 
 /// Which instructions the kernels use. A value of this type is proof that the processor has them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -30,6 +33,9 @@ pub use avx512::Avx512;
 pub enum Level {
     /// Plain operations rounded to nearest, then a step outward.
     Portable,
+    /// AVX2, for blocks; the other kernels take the portable way.
+    #[cfg(target_arch = "x86_64")]
+    Avx2(Avx2),
     /// AVX-512F with a rounding direction in each instruction.
     #[cfg(target_arch = "x86_64")]
     Avx512(Avx512),
@@ -43,7 +49,20 @@ impl Level {
         if let Some(proof) = Avx512::detect() {
             return Self::Avx512(proof);
         }
+        #[cfg(target_arch = "x86_64")]
+        if let Some(proof) = Avx2::detect() {
+            return Self::Avx2(proof);
+        }
         Self::Portable
+    }
+
+    /// Every level of this processor, the portable one first.
+    pub fn all() -> impl Iterator<Item = Self> {
+        #[cfg(target_arch = "x86_64")]
+        let more = [Avx2::detect().map(Self::Avx2), Avx512::detect().map(Self::Avx512)];
+        #[cfg(not(target_arch = "x86_64"))]
+        let more: [Option<Self>; 0] = [];
+        std::iter::once(Self::Portable).chain(more.into_iter().flatten())
     }
 }
 
@@ -145,6 +164,8 @@ macro_rules! unary {
             match level {
                 Level::Portable => portable::$name(a, out),
                 #[cfg(target_arch = "x86_64")]
+                Level::Avx2(_) => portable::$name(a, out),
+                #[cfg(target_arch = "x86_64")]
                 Level::Avx512(proof) => avx512::$name(proof, a, out),
             }
         }
@@ -161,6 +182,8 @@ macro_rules! binary {
             assert!(a.len() == out.len() && b.len() == out.len(), "as many results as operands");
             match level {
                 Level::Portable => portable::$name(a, b, out),
+                #[cfg(target_arch = "x86_64")]
+                Level::Avx2(_) => portable::$name(a, b, out),
                 #[cfg(target_arch = "x86_64")]
                 Level::Avx512(proof) => avx512::$name(proof, a, b, out),
             }
@@ -202,6 +225,8 @@ pub fn mul_add(level: Level, a: Lanes<'_>, b: Lanes<'_>, c: Lanes<'_>, out: Lane
     assert!(a.len() == out.len() && b.len() == out.len() && c.len() == out.len(), "as many results as operands");
     match level {
         Level::Portable => portable::mul_add(a, b, c, out),
+        #[cfg(target_arch = "x86_64")]
+        Level::Avx2(_) => portable::mul_add(a, b, c, out),
         #[cfg(target_arch = "x86_64")]
         Level::Avx512(proof) => avx512::mul_add(proof, a, b, c, out),
     }

@@ -1,8 +1,10 @@
 //! The one public trait: what the renderer needs to know of a function.
+use super::batch::{self, FanPiece, RayPiece, Unasked};
 use super::{Gradient, PointJet, Regions, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
 use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::lanes::Level;
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Decoration, Interval};
 use std::sync::Arc;
@@ -23,6 +25,15 @@ pub struct Workspace {
     jets: Vec<Jet<Affine<3>>>,
     jet_slopes: Vec<SlopeOf<Interval, Jet<Affine<3>>>>,
     points: Vec<PointJet>,
+    batch: batch::Scratch,
+}
+
+impl Workspace {
+    /// One whose batches use certain instructions, not the best of this processor. No answer depends on it.
+    #[must_use]
+    pub fn on(level: Level) -> Self {
+        Self { batch: batch::Scratch::on(level), ..Self::default() }
+    }
 }
 
 /// A point on a beam piece, as linear functions of the beam's symbols: (t, i, j) of a camera frustum, (t, u, v) of a
@@ -77,6 +88,30 @@ pub trait Inclusion: Send + Sync {
     /// The function over a piece of a beam.
     fn beam(&self, point: BeamPoint, work: &mut Workspace) -> Affine<3> {
         mean_value(self, point, work)
+    }
+
+    /// [`range`](Self::range) over the boxes of many pieces of rays. Panics unless there are as many answers as questions.
+    fn ranges(&self, pieces: &[RayPiece], out: &mut [Interval], work: &mut Workspace) {
+        assert_eq!(pieces.len(), out.len(), "as many answers as questions");
+        pieces.iter().zip(out).for_each(|(piece, out)| *out = self.range(&piece.region(), work));
+    }
+
+    /// [`gradient`](Self::gradient) over many boxes. Panics unless there are as many answers as questions.
+    fn gradients(&self, regions: &[Box3], out: &mut [Gradient], work: &mut Workspace) {
+        assert_eq!(regions.len(), out.len(), "as many answers as questions");
+        regions.iter().zip(out).for_each(|(region, out)| *out = self.gradient(region, work));
+    }
+
+    /// [`ray`](Self::ray) over many pieces. Panics unless there are as many answers as questions.
+    fn rays(&self, pieces: &[RayPiece], out: &mut [Dual<1>], work: &mut Workspace) {
+        assert_eq!(pieces.len(), out.len(), "as many answers as questions");
+        pieces.iter().zip(out).for_each(|(piece, out)| *out = self.ray(piece.point(), work));
+    }
+
+    /// [`beam`](Self::beam) over many pieces. Panics unless there are as many answers as questions.
+    fn beams(&self, pieces: &[FanPiece], out: &mut [Affine<3>], work: &mut Workspace) {
+        assert_eq!(pieces.len(), out.len(), "as many answers as questions");
+        pieces.iter().zip(out).for_each(|(piece, out)| *out = self.beam(piece.fan.at(piece.t), work));
     }
 
     /// The slope `g` of `f(P + t D) = f(P) + t g` over a piece of a beam from an apex known to be in an interval box.
@@ -208,6 +243,38 @@ impl Inclusion for Tape {
     #[inline]
     fn beam(&self, point: BeamPoint, work: &mut Workspace) -> Affine<3> {
         run(self, point, &mut work.beams)
+    }
+
+    fn ranges(&self, pieces: &[RayPiece], out: &mut [Interval], work: &mut Workspace) {
+        assert_eq!(pieces.len(), out.len(), "as many answers as questions");
+        let Unasked(rest) = work.batch.ranges(self, pieces, out);
+        for k in pieces.len() - rest..pieces.len() {
+            out[k] = self.range(&pieces[k].region(), work);
+        }
+    }
+
+    fn gradients(&self, regions: &[Box3], out: &mut [Gradient], work: &mut Workspace) {
+        assert_eq!(regions.len(), out.len(), "as many answers as questions");
+        let Unasked(rest) = work.batch.gradients(self, regions, out);
+        for k in regions.len() - rest..regions.len() {
+            out[k] = self.gradient(&regions[k], work);
+        }
+    }
+
+    fn rays(&self, pieces: &[RayPiece], out: &mut [Dual<1>], work: &mut Workspace) {
+        assert_eq!(pieces.len(), out.len(), "as many answers as questions");
+        let Unasked(rest) = work.batch.rays(self, pieces, out);
+        for k in pieces.len() - rest..pieces.len() {
+            out[k] = self.ray(pieces[k].point(), work);
+        }
+    }
+
+    fn beams(&self, pieces: &[FanPiece], out: &mut [Affine<3>], work: &mut Workspace) {
+        assert_eq!(pieces.len(), out.len(), "as many answers as questions");
+        let Unasked(rest) = work.batch.beams(self, pieces, out);
+        for k in pieces.len() - rest..pieces.len() {
+            out[k] = self.beam(pieces[k].fan.at(pieces[k].t), work);
+        }
     }
 
     #[inline]

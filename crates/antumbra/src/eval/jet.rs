@@ -57,14 +57,50 @@ impl Number for PointJet {
         Self::flat(value.mid())
     }
 
+    #[inline(always)]
     fn unary(self, op: Unary) -> Self {
+        match op {
+            Unary::Neg => self.scaled(-1.0),
+            Unary::Sqr => self.times(self),
+            _ => self.function(op),
+        }
+    }
+
+    fn powi(self, n: i32) -> Self {
+        match n {
+            0 => Self::flat(self.value.powi_of(0)),
+            1 => self,
+            2 => self.times(self),
+            3 => self.times(self).times(self),
+            4 => self.times(self).unary(Unary::Sqr),
+            _ => self.power(self.value.powi_of(n), f64::from(n)),
+        }
+    }
+
+    #[inline(always)]
+    fn binary(self, op: Binary, o: Self) -> Self {
+        match op {
+            Binary::Add => {
+                Self { value: self.value + o.value, first: self.first + o.first, second: self.second + o.second }
+            }
+            Binary::Sub => {
+                Self { value: self.value - o.value, first: self.first - o.first, second: self.second - o.second }
+            }
+            Binary::Mul => self.times(o),
+            _ => self.function_of_two(op, o),
+        }
+    }
+}
+
+/// What is rare: apart, so that sums and products are inlined into the interpreter.
+impl PointJet {
+    fn function(self, op: Unary) -> Self {
         let v = self.value;
         let h = v.unary(op);
         match op {
-            Unary::Neg => self.scaled(-1.0),
+            Unary::Neg | Unary::Sqr => self.unary(op),
             Unary::Abs => Self { value: h, ..self.scaled(if v < 0.0 { -1.0 } else { 1.0 }) },
             Unary::Sign | Unary::Floor => Self::flat(h),
-            Unary::Sqr => self.times(self),
             Unary::Sqrt => self.chain(h, 0.5 / h, -0.25 / (h * v)),
             Unary::Cbrt => self.power(h, 1.0 / 3.0),
             Unary::Exp => self.chain(h, h, h),
@@ -87,23 +123,10 @@ impl Number for PointJet {
         }
     }
 
-    fn powi(self, n: i32) -> Self {
-        match n {
-            0 => Self::flat(self.value.powi_of(0)),
-            1 => self,
-            2 => self.times(self),
-            3 => self.times(self).times(self),
-            4 => self.times(self).unary(Unary::Sqr),
-            _ => self.power(self.value.powi_of(n), f64::from(n)),
-        }
-    }
-
-    fn binary(self, op: Binary, o: Self) -> Self {
+    fn function_of_two(self, op: Binary, o: Self) -> Self {
         let value = self.value.binary(op, o.value);
         match op {
-            Binary::Add => Self { value, first: self.first + o.first, second: self.second + o.second },
-            Binary::Sub => Self { value, first: self.first - o.first, second: self.second - o.second },
-            Binary::Mul => self.times(o),
+            Binary::Add | Binary::Sub | Binary::Mul => self.binary(op, o),
             Binary::Div => Self { value, ..self.over(o) },
             Binary::Min => Self { value, ..if self.value <= o.value { self } else { o } },
             Binary::Max => Self { value, ..if self.value >= o.value { self } else { o } },

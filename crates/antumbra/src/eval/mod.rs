@@ -12,6 +12,7 @@
 //! | [`Jet`](antumbra_interval::affine::Jet) | f and its first two derivatives along a ray, in affine form; slopes of it too |
 //! | [`PointJet`] | the same at a point, rounded: to choose search paths, never for proofs |
 //! | [`Dual`](antumbra_interval::affine::Dual) | f and its derivative along a ray, in affine form |
+mod batch;
 mod enclosure;
 mod gradient;
 mod inclusion;
@@ -20,6 +21,7 @@ mod machine;
 mod point;
 mod regions;
 
+pub use batch::{FanPiece, RayPiece};
 pub use gradient::Gradient;
 pub use inclusion::{BeamPoint, Inclusion, JetPoint, QuadraticPoint, ShaftPoint, Workspace, centred_range};
 pub use jet::PointJet;

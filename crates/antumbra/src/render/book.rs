@@ -1,4 +1,5 @@
 //! What is known of the picture so far: the frame, its hits, and the statistics.
+use super::by_proof::BLOCK;
 use super::crease::apart;
 use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
@@ -6,6 +7,7 @@ use super::task::Task;
 use super::{Frame, LightPlanes, Method, Stats};
 use crate::trace::Cost;
 use crate::verdict::{Reason, Verdict};
+use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
@@ -101,13 +103,14 @@ impl Book {
         }
         self.hits[index] = pixel.hit;
         if let Some(edge) = pixel.edge {
-            self.edges.insert(index, edge);
+            self.edges.insert(index, *edge);
         }
-        self.frame.rgb[index] = self.color(task, index, pixel.hit.as_ref(), None);
     }
 
     pub(super) fn put_light(&mut self, task: &Task, light: &Light) {
-        let Some(hit) = self.hits[light.index] else { return };
+        if self.hits[light.index].is_none() {
+            return;
+        }
         let (frame, stats, index) = (&mut self.frame, &mut self.stats, light.index);
         let planes = &mut frame.lights[light.light];
         (planes.visible_lo[index], planes.visible_hi[index]) = (light.lo, light.hi);
@@ -130,7 +133,17 @@ impl Book {
         let evaluations = light.initial.evaluations + light.sub.evaluations;
         stats.shadow_evaluations += evaluations;
         frame.cost[index] = frame.cost[index].saturating_add(u32::try_from(evaluations).unwrap_or(u32::MAX));
-        self.frame.rgb[index] = self.color(task, index, Some(&hit), Some(index));
+    }
+
+    /// Gives pixels their colours: `lit` by what is known of their light, or as if nothing were in its way. In parallel on the
+    /// threads of the pool that this runs in.
+    pub(super) fn put_colors(&mut self, task: &Task, pixels: &[usize], lit: bool) {
+        let this = &*self;
+        let color = |&index: &usize| this.color(task, index, this.hits[index].as_ref(), lit.then_some(index));
+        let colors: Vec<[f32; 3]> = pixels.par_iter().with_min_len(BLOCK * BLOCK).map(color).collect();
+        for (&index, color) in pixels.iter().zip(colors) {
+            self.frame.rgb[index] = color;
+        }
     }
 
     /// Colour of a pixel that shows one hit, or nothing. `lit_as` is the pixel whose light it has; before that is known
@@ -150,7 +163,7 @@ impl Book {
             full: *full,
             visible: lit_as.map(|at| planes.visible(at)),
         });
-        shade::shade(&point, lights, &task.scene.sky, camera, backdrop, task.scene.scale()).map(|c| c as f32)
+        shade::shade(&point, lights, &task.scene.sky, camera, backdrop, task.scale).map(|c| c as f32)
     }
 
     /// Of some pixels those that show an edge within what they meet, and have no grid of rays yet.

@@ -1,6 +1,6 @@
 //! The passes of the paper's methods: one beam (or ray) per pixel, sub-beams for its shadow.
 use super::pixel::{Known, Light, Pixel};
-use super::task::Task;
+use super::task::{Asked, Task};
 use crate::eval::Workspace;
 use crate::geom::Vec3;
 use crate::grid::Grid;
@@ -33,7 +33,8 @@ pub(super) fn primary(task: &Task, grids: &[Grid], pixels: impl Iterator<Item = 
             let fan = task.film.fan(column..column + 1, row..row + 1);
             let search = Search { bisection: task.settings.bisection, rays: (!rays).then_some(&fan) };
             let find = world.nearest(&beam, Interval::NON_NEGATIVE, search, &mut work, &mut cost);
-            let hit = find.map(|find| task.hit(find.object, &beam, find.t, None, &mut work));
+            let hit =
+                find.map(|find| task.hit(Asked { object: find.object, beam, t: find.t, before: None }, &mut work));
             // A ray that misses proves nothing about the rest of its pixel.
             let known = if find.is_none() && !rays { Known::Empty } else { Known::Undecided(Reason::Resolution) };
             let coverage = if known == Known::Empty { [0.0, 0.0] } else { [0.0, 1.0] };

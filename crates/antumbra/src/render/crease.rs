@@ -1,11 +1,11 @@
 //! Smooth inner edges: where one part of a surface passes before another, where surfaces cross, where a surface bends sharply.
 //! Pixels that are proved hit show such an edge as a stair; a grid of rays in each gives its colour. Nothing here is
 //! certified, and nothing changes what is.
-use super::by_proof::EDGE_RAYS;
 use super::pixel::{Edge, Hit};
-use super::task::Task;
-use crate::eval::Workspace;
-use crate::trace::{Cost, Known, Scratch, first_meeting, narrow};
+use super::task::{Asked, Task};
+use super::visibility::{EDGE_RAYS, Scratch};
+use crate::geom::Beam;
+use crate::trace::{Cost, Frustum, Known, Meeting, Ray, first_meetings, narrow};
 
 /// Cosine between the normals of neighbours from which they are one smooth surface.
 const BEND: f64 = 0.9;
@@ -20,21 +20,44 @@ pub(super) fn apart(a: &Hit, b: &Hit) -> bool {
 }
 
 /// What a grid of rays meets in each of some pixels.
-pub(super) fn grids(task: &Task, pixels: &[usize]) -> (Vec<(usize, Edge)>, Cost) {
+pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> (Vec<(usize, Edge)>, Cost) {
+    const RAYS: usize = EDGE_RAYS * EDGE_RAYS;
     let surfaces = task.surfaces();
-    let (mut work, mut stack, mut scratch) = (Workspace::default(), Vec::new(), Scratch::default());
-    let mut cost = Cost::default();
-    let grid = |&index: &usize| {
-        let (column, row) = (index % task.film.width, index / task.film.width);
-        let fan = task.film.fan(column..column + 1, row..row + 1);
-        let open = narrow(&surfaces, &fan, &Known::nothing(&surfaces, &fan), &mut stack, &mut work, &mut cost);
-        let mut meet = |k: usize| {
-            let ray = task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS);
-            let found = first_meeting(&surfaces, &ray, &open.open, task.glance, &mut scratch, &mut work, &mut cost)?;
-            Some(task.hit(found.surface, &ray, found.t, found.before, &mut work))
-        };
-        (index, Edge { rays: (0..EDGE_RAYS * EDGE_RAYS).map(&mut meet).collect(), thin: None })
+    let Scratch { work, frusta, rays, hits } = scratch;
+    let place = |index: usize| (index % task.film.width, index / task.film.width);
+    let fan = |&index: &usize| {
+        let (column, row) = place(index);
+        task.film.fan(column..column + 1, row..row + 1)
     };
-    let edges = pixels.iter().map(grid).collect();
+    let fans: Vec<_> = pixels.iter().map(fan).collect();
+    let nothing: Vec<Known> = fans.iter().map(|fan| Known::nothing(&surfaces, fan)).collect();
+    let jobs: Vec<_> = fans.into_iter().zip(&nothing).map(|(fan, parent)| Frustum { fan, parent }).collect();
+    let (mut open, mut cost) = (Vec::with_capacity(pixels.len()), Cost::default());
+    narrow(&surfaces, &jobs, frusta, work, |_, known, spent| {
+        open.push(std::mem::take(known));
+        cost += spent;
+    });
+    let beams: Vec<Beam> = pixels
+        .iter()
+        .flat_map(|&index| {
+            let (column, row) = place(index);
+            (0..RAYS).map(move |k| task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS))
+        })
+        .collect();
+    let asked: Vec<Ray<'_>> =
+        beams.iter().enumerate().map(|(k, beam)| Ray { beam: *beam, open: &open[k / RAYS].open }).collect();
+    let mut met: Vec<(usize, Meeting)> = Vec::with_capacity(beams.len());
+    first_meetings(&surfaces, &asked, task.glance, rays, work, |k, meeting, spent| {
+        met.extend(meeting.map(|m| (k, m)));
+        cost += spent;
+    });
+    let all: Vec<Asked> =
+        met.iter().map(|(k, m)| Asked { object: m.surface, beam: beams[*k], t: m.t, before: m.before }).collect();
+    let mut grids = vec![vec![None; RAYS]; pixels.len()];
+    task.hits(&all, hits, work, |k, hit| {
+        let k = met[k].0;
+        grids[k / RAYS][k % RAYS] = Some(hit);
+    });
+    let edges = pixels.iter().zip(grids).map(|(&index, rays)| (index, Edge { rays, thin: None })).collect();
     (edges, cost)
 }

@@ -1,5 +1,6 @@
 //! Light of a rectangle on a small patch of surface. For colours: rounded, not certified.
 use crate::geom::{Rect, Vec3};
+use smallvec::SmallVec;
 
 /// What reaches a patch of a rectangle that nothing hides.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,7 +17,8 @@ pub(super) struct Irradiance {
 /// from the point) gives `1/(2 pi) |sum angle(v_i, v_i+1) (v_i x v_i+1)/|v_i x v_i+1| . n|`.
 pub(super) fn irradiance(point: Vec3, normal: Vec3, rect: &Rect) -> Irradiance {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(u, v)| rect.point(u, v) - point);
-    let mut polygon = Vec::with_capacity(5);
+    // A quadrangle cut by a plane.
+    let mut polygon = SmallVec::<[Vec3; 5]>::new();
     for k in 0..4 {
         let (a, b) = (corners[k], corners[(k + 1) % 4]);
         let (x, y) = (a.dot(normal), b.dot(normal));

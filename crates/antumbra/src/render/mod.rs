@@ -18,6 +18,7 @@ mod spec;
 mod state;
 mod stats;
 mod task;
+mod visibility;
 
 pub use frame::{Frame, LightPlanes};
 pub use overlay::Overlay;

@@ -48,7 +48,7 @@ pub(super) struct Pixel {
     /// What it shows: where the centre ray hits, else where some other ray does.
     pub(super) hit: Option<Hit>,
     /// Where an edge runs through the pixel: what a grid of rays meets, for smooth edges.
-    pub(super) edge: Option<Edge>,
+    pub(super) edge: Option<Box<Edge>>,
     pub(super) cost: Cost,
 }
 

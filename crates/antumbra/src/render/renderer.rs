@@ -5,6 +5,7 @@ use super::by_proof::{self, BLOCK};
 use super::crease;
 use super::state::{self, StateError, Stopped};
 use super::task::Task;
+use super::visibility::{self, Spare};
 use super::{Error, Frame, Method, RenderSpec, RunSpec, Stats};
 use crate::grid::Grid;
 use crate::scene::Scene;
@@ -29,6 +30,7 @@ pub struct Renderer {
     stage: Stage,
     next_tile: usize,
     stop: Arc<AtomicBool>,
+    spare: Spare,
 }
 
 /// What a renderer is about to do.
@@ -53,7 +55,7 @@ impl Renderer {
         let task = Task::new(scene, &spec)?;
         let book = Book::new(frame, spec.method, pool.current_num_threads());
         let (stage, stop) = (Stage::Grid, Arc::default());
-        Ok(Self { task, spec, pool, grids: Vec::new(), book, stage, next_tile: 0, stop })
+        Ok(Self { task, spec, pool, grids: Vec::new(), book, stage, next_tile: 0, stop, spare: Spare::default() })
     }
 
     /// Writes everything that is known, so that [`Renderer::resume`] can go on with it: some 50 to 300 bytes for each
@@ -283,7 +285,10 @@ impl Renderer {
         let found = this.each(batch, |turn| match this.task.method {
             Method::Certified => {
                 let (column, row) = this.corner(turn);
-                by_proof::primary(&this.task, column, row)
+                let mut scratch = this.spare.take();
+                let found = visibility::primary(&this.task, column, row, &mut scratch);
+                this.spare.give(scratch);
+                found
             }
             Method::Paper(_) => {
                 let rays = this.task.method.uses_rays();
@@ -291,7 +296,12 @@ impl Renderer {
             }
         });
         let done = found.len();
-        found.into_iter().flatten().for_each(|pixel| self.book.put_pixel(&self.task, pixel));
+        let mut pixels = Vec::with_capacity(done * BLOCK * BLOCK);
+        for pixel in found.into_iter().flatten() {
+            pixels.push(pixel.index);
+            self.book.put_pixel(&self.task, pixel);
+        }
+        self.put_colors(&pixels, false);
         done
     }
 
@@ -310,7 +320,15 @@ impl Renderer {
             }
         });
         let done = found.len();
-        found.into_iter().flatten().for_each(|light| self.book.put_light(&self.task, &light));
+        let mut pixels = Vec::with_capacity(done * BLOCK * BLOCK);
+        for light in found.into_iter().flatten() {
+            pixels.push(light.index);
+            self.book.put_light(&self.task, &light);
+        }
+        // A pixel with several lights once.
+        pixels.sort_unstable();
+        pixels.dedup();
+        self.put_colors(&pixels, true);
         done
     }
 
@@ -322,11 +340,19 @@ impl Renderer {
         let this = &*self;
         let found = this.each(batch, |turn| {
             let pixels = this.book.creases(&this.task, this.pixels(turn));
-            crease::grids(&this.task, &pixels)
+            let mut scratch = this.spare.take();
+            let edges = crease::grids(&this.task, &pixels, &mut scratch);
+            this.spare.give(scratch);
+            edges
         });
         let done = found.len();
         found.into_iter().for_each(|edges| self.book.put_creases(edges));
         done
+    }
+
+    fn put_colors(&mut self, pixels: &[usize], lit: bool) {
+        let Self { pool, book, task, .. } = self;
+        pool.install(|| book.put_colors(task, pixels, lit));
     }
 
     /// The work of the tiles of a batch in their order, up to the first that was not begun because of the stop flag.

@@ -2,8 +2,8 @@
 use super::irradiance::irradiance;
 use super::pixel::Hit;
 use super::spec::{Error, Method, RenderSpec};
-use crate::eval::{Inclusion, Workspace};
-use crate::geom::{Beam, Film, Rect, Vec3};
+use crate::eval::{Gradient, Inclusion, Workspace};
+use crate::geom::{Beam, Box3, Film, Rect, Vec3};
 use crate::paper::Settings;
 use crate::scene::{ColorMap, Coloring, Colors, Light, Object, Scene};
 use crate::shadow::Tolerance;
@@ -11,12 +11,36 @@ use crate::trace::{Effort, Sign, Surface};
 use antumbra_interval::Interval;
 use std::sync::Arc;
 
+/// A hit of which more is to be known.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Asked {
+    /// Index of the surface.
+    pub(super) object: usize,
+    /// The ray.
+    pub(super) beam: Beam,
+    /// Where on it.
+    pub(super) t: Interval,
+    /// The sign of f just before, if known.
+    pub(super) before: Option<Sign>,
+}
+
+/// Scratch memory for many hits.
+#[derive(Debug, Default)]
+pub(super) struct HitScratch {
+    regions: Vec<Box3>,
+    gradients: Vec<Gradient>,
+}
+
+const NO_GRADIENT: Gradient = Gradient { value: Interval::ENTIRE, partials: [Interval::ENTIRE; 3] };
+
 /// Scene, film and lights of one picture.
 pub(super) struct Task {
     pub(super) scene: Arc<Scene>,
     /// The scene's objects; the floor, if it is wanted, is the last.
     pub(super) objects: Vec<Object>,
     pub(super) has_floor: bool,
+    /// Of the scene.
+    pub(super) scale: f64,
     pub(super) film: Film,
     pub(super) lights: Vec<Light>,
     /// Form factor of each light where the camera looks, on a patch that faces it: full light.
@@ -66,7 +90,20 @@ impl Task {
         let full = lights.iter().map(|light| full(scene.view.target, &light.rect)).collect();
         let distance = (scene.view.eye - scene.view.target).length();
         let glance = if distance > FAR * scene.scale() { Effort::FINE } else { Effort::COARSE };
-        Ok(Self { scene, objects, has_floor, film, lights, full, settings, tolerance, method: spec.method, glance })
+        let scale = scene.scale();
+        Ok(Self {
+            scene,
+            objects,
+            scale,
+            has_floor,
+            film,
+            lights,
+            full,
+            settings,
+            tolerance,
+            method: spec.method,
+            glance,
+        })
     }
 
     /// The objects as surfaces.
@@ -82,27 +119,52 @@ impl Task {
         self.has_floor.then(|| self.objects.len() - 1)
     }
 
-    /// A hit on an object: where, and how the surface lies there. `before` is the sign of f just before it, if known.
-    /// Nothing here is certified but the interval.
-    pub(super) fn hit(
+    /// A hit on an object: where, and how the surface lies there. Nothing here is certified but the interval.
+    pub(super) fn hit(&self, asked: Asked, work: &mut Workspace) -> Hit {
+        let f = self.objects[asked.object].surface.as_ref();
+        let point = self.point(&asked);
+        let gradient = f.gradient(&point.to_box(), work);
+        self.hit_with(asked, point, &gradient, work)
+    }
+
+    /// The same for many, in their order.
+    pub(super) fn hits(
         &self,
-        object: usize,
-        beam: &Beam,
-        t: Interval,
-        before: Option<Sign>,
+        asked: &[Asked],
+        scratch: &mut HitScratch,
         work: &mut Workspace,
-    ) -> Hit {
+        mut found: impl FnMut(usize, Hit),
+    ) {
+        let HitScratch { regions, gradients } = scratch;
+        for (object, o) in self.objects.iter().enumerate() {
+            let of_this = || asked.iter().enumerate().filter(move |(_, a)| a.object == object);
+            regions.clear();
+            regions.extend(of_this().map(|(_, a)| self.point(a).to_box()));
+            gradients.resize(regions.len(), NO_GRADIENT);
+            o.surface.gradients(regions, gradients, work);
+            for ((k, a), (region, gradient)) in of_this().zip(regions.iter().zip(gradients.iter())) {
+                found(k, self.hit_with(*a, region.mid(), gradient, work));
+            }
+        }
+    }
+
+    /// About where it is.
+    fn point(&self, Asked { object, beam, t, .. }: &Asked) -> Vec3 {
         // A floor seen along its plane has no far end; take the near one.
-        let at = if t.hi().is_finite() { t } else { Interval::point(t.lo()) };
+        let at = if t.hi().is_finite() { *t } else { Interval::point(t.lo()) };
         let mut point = beam.at(at).mid();
-        let floor = Some(object) == self.floor_index();
-        if floor {
+        if Some(*object) == self.floor_index() {
             point.0[2] = self.scene.floor_height;
         }
+        point
+    }
+
+    fn hit_with(&self, asked: Asked, point: Vec3, gradient: &Gradient, work: &mut Workspace) -> Hit {
+        let Asked { object, beam, t, before } = asked;
         let view = beam.direction.mid().normalized();
-        let (normal, outside) = oriented_normal(self.objects[object].surface.as_ref(), point, view, before, work);
-        let color = paint(&self.objects[object], point, normal, outside, self.scene.scale(), work);
-        Hit { t, point, normal, color, object, floor, receiver: None }
+        let (normal, outside) = oriented_normal(gradient, view, before);
+        let color = paint(&self.objects[object], point, normal, outside, self.scale, work);
+        Hit { t, point, normal, color, object, floor: Some(object) == self.floor_index(), receiver: None }
     }
 }
 
@@ -149,14 +211,7 @@ fn curvature(f: &dyn Inclusion, point: Vec3, normal: Vec3, step: f64, work: &mut
 }
 
 /// The unit normal towards the viewer, and whether he is on the side where f > 0.
-fn oriented_normal(
-    f: &dyn Inclusion,
-    point: Vec3,
-    view: Vec3,
-    before: Option<Sign>,
-    work: &mut Workspace,
-) -> (Vec3, bool) {
-    let gradient = f.gradient(&point.to_box(), work);
+fn oriented_normal(gradient: &Gradient, view: Vec3, before: Option<Sign>) -> (Vec3, bool) {
     let normal = Vec3(gradient.partials.map(|d| if d.is_empty() { 0.0 } else { d.mid() })).normalized();
     // No gradient (a singular point): the surface faces the viewer.
     let normal = if normal == Vec3::default() { -view } else { normal };

@@ -296,7 +296,7 @@ fn check_look(scene: &Scene) -> Result<(), FileError> {
         return Err(value_error("backdrop.falloff", "must be from 0 (even) to 100; 1 is the usual"));
     }
     if let Exposure::Stops(stops) = scene.look.exposure
-        && !(stops.abs() <= Exposure::MOST)
+        && (stops.is_nan() || stops.abs() > Exposure::MOST)
     {
         return Err(value_error(
             "look.exposure",

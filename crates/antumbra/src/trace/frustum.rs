@@ -1,21 +1,24 @@
-//! Frusta of the camera: which parts of which rays may meet which surface (certified, first order).
+//! Frusta of the camera: which parts of which rays may meet which surface (certified, first order). Many frusta in lockstep, so
+//! that evaluations come in batches.
 use super::piece::certainly_continuous;
 use super::policy::{FRUSTUM_EVALUATIONS, Reach, Shape, cut};
 use super::{Cost, Piece, Sign, Surface};
-use crate::eval::Workspace;
-use crate::geom::Fan;
+use crate::eval::{FanPiece, Workspace};
+use crate::geom::{Box3, Fan, Passage};
 use antumbra_interval::Interval;
+use antumbra_interval::affine::Affine;
+use smallvec::{SmallVec, smallvec};
 
 /// What is known of all rays of a frustum. Valid for every part of the frustum.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Known {
     /// The pieces that are open; outside of them no ray meets a surface before `cover`. Ascending per surface.
-    pub open: Vec<Piece>,
+    pub open: SmallVec<[Piece; 3]>,
     /// Every ray meets some surface at a parameter up to this one: proved. Infinite if that is not so.
     pub cover: f64,
     /// Per surface: a sign of f, and a parameter before its first open piece at which f has it on all rays, all of them
     /// inside the surface's region; where proved.
-    front: Vec<Option<(Sign, f64)>>,
+    front: SmallVec<[Option<(Sign, f64)>; 2]>,
 }
 
 impl Known {
@@ -27,7 +30,7 @@ impl Known {
             let t = s.passage(&fan.apex, &directions).outer;
             (!t.is_empty()).then_some(Piece { surface, t })
         });
-        Self { open: open.collect(), cover: f64::INFINITY, front: vec![None; surfaces.len()] }
+        Self { open: open.collect(), cover: f64::INFINITY, front: smallvec![None; surfaces.len()] }
     }
 
     /// No ray meets anything: proved.
@@ -44,94 +47,218 @@ impl Known {
 }
 
 /// Appends a piece; neighbours with one edge are one piece.
-fn join(open: &mut Vec<Piece>, first: usize, piece: Piece) {
+fn join(open: &mut SmallVec<[Piece; 3]>, first: usize, piece: Piece) {
     match open[first..].last_mut() {
         Some(last) if last.t.hi() == piece.t.lo() => last.t = last.t.hull(piece.t),
         _ => open.push(piece),
     }
 }
 
-/// Looks at a part of a frustum of which `parent` is known, and settles as much of the open pieces as pays.
+/// A frustum to look at, and what is known of one that it is a part of.
+#[derive(Clone, Copy, Debug)]
+pub struct Frustum<'a> {
+    /// Its rays.
+    pub fan: Fan,
+    /// What is known already.
+    pub parent: &'a Known,
+}
+
+/// Scratch memory for frusta: keep it, it only grows.
+#[derive(Debug, Default)]
+pub struct Frusta {
+    searches: Vec<Search>,
+    active: Vec<usize>,
+    pieces: Vec<FanPiece>,
+    forms: Vec<Affine<3>>,
+}
+
+/// The search in one frustum.
+#[derive(Debug)]
+struct Search {
+    known: Known,
+    cost: Cost,
+    /// The piece that is being looked at; `None` when all is done.
+    asked: Option<Interval>,
+    stack: Vec<Interval>,
+    shape: Shape,
+    directions: Box3,
+    /// Of the surface that is looked for: its index, the first of the parent's pieces that follow, where it may be.
+    surface: usize,
+    next: usize,
+    passage: Passage,
+    reach: Reach,
+    /// The first of its open pieces.
+    first_open: usize,
+}
+
+/// Looks at frusta and settles as much of their open pieces as pays; what is then known of each, and what it cost, in their
+/// order. The `Known` may be taken; what is left in its place does not matter.
 ///
 /// A piece in which the enclosure of f excludes 0 holds no surface (wherever f is undefined there is none either). If f
 /// has one sign on all rays at a parameter inside the surface's region, and the other sign at a later one, still inside,
 /// and is continuous in between, then every ray meets the surface in between: what lies behind is of no interest.
+///
+/// The searches do not know of each other: the answer for a frustum, and its cost, are the same in any company.
 pub fn narrow(
     surfaces: &[Surface<'_>],
-    fan: &Fan,
-    parent: &Known,
-    stack: &mut Vec<Interval>,
+    jobs: &[Frustum<'_>],
+    scratch: &mut Frusta,
     work: &mut Workspace,
-    cost: &mut Cost,
-) -> Known {
-    cost.beams += 1;
-    let (shape, directions) = (Shape::of(fan), fan.directions());
-    let begin = cost.evaluations;
-    let mut known = Known { open: Vec::new(), cover: parent.cover, front: parent.front.clone() };
-    let mut next = 0;
-    while next < parent.open.len() {
-        let surface = parent.open[next].surface;
-        let end = next + parent.open[next..].iter().take_while(|p| p.surface == surface).count();
-        let pieces = &parent.open[next..end];
-        next = end;
-        let function = surfaces[surface].function;
-        let passage = surfaces[surface].passage(&fan.apex, &directions);
-        let (reach, first_open) = (Reach::of(&passage), known.open.len());
-        stack.clear();
-        stack.extend(pieces.iter().rev().map(|p| p.t));
-        while let Some(t) = stack.pop() {
-            let t = t.intersection(passage.outer);
-            if t.is_empty() || t.lo() >= known.cover {
-                continue;
+    mut found: impl FnMut(usize, &mut Known, Cost),
+) {
+    let Frusta { searches, active, pieces, forms } = scratch;
+    active.clear();
+    for (k, job) in jobs.iter().enumerate() {
+        if searches.len() == k {
+            searches.push(Search::new(&job.fan));
+        }
+        searches[k].begin(surfaces, job);
+        active.push(k);
+    }
+    loop {
+        active.retain(|k| searches[*k].asked.is_some());
+        if active.is_empty() {
+            break;
+        }
+        for (surface, of) in surfaces.iter().enumerate() {
+            pieces.clear();
+            for &k in active.iter().filter(|k| searches[**k].surface == surface) {
+                pieces.extend(searches[k].asked.map(|t| FanPiece { fan: jobs[k].fan, t }));
             }
-            if t.hi() == f64::INFINITY {
-                // An unbounded region: nothing can be evaluated, nothing is claimed.
-                known.open.push(Piece { surface, t });
-                continue;
-            }
-            if cost.evaluations - begin > FRUSTUM_EVALUATIONS {
-                // The work of one frustum is spent: the rest stays open.
-                join(&mut known.open, first_open, Piece { surface, t });
-                continue;
-            }
-            cost.evaluations += 1;
-            let mut range = function.beam(fan.at(t), work).range();
-            if range == Interval::ENTIRE {
-                // Affine forms say nothing at the ends of domains; intervals do.
-                cost.evaluations += 1;
-                range = function.range(&fan.box_at(t), work);
-            }
-            if range.possibly_zero() {
-                if shape.long(t, reach) {
-                    let [near, far] = cut(t);
-                    stack.push(far);
-                    stack.push(near);
-                } else {
-                    join(&mut known.open, first_open, Piece { surface, t });
-                }
-                continue;
-            }
-            let Some(sign) = Sign::of(range) else { continue };
-            // Only parameters at which all rays are inside the region can prove a meeting.
-            let inside = t.intersection(passage.inner);
-            if inside.is_empty() {
-                continue;
-            }
-            if known.open.len() == first_open {
-                known.front[surface] = Some((sign, inside.hi()));
-            } else if let Some((front, at)) = known.front[surface]
-                && front != sign
-                && at <= inside.lo()
-            {
-                let between = fan.box_at(Interval::new(at, inside.lo()));
-                if certainly_continuous(function, &between, work) {
-                    known.cover = known.cover.min(inside.lo());
-                    break;
+            forms.resize(pieces.len(), Affine::UNKNOWN);
+            of.function.beams(pieces, forms, work);
+            let mut answers = forms.iter();
+            for &k in active.iter() {
+                if searches[k].surface == surface
+                    && let Some(t) = searches[k].asked
+                    && let Some(form) = answers.next()
+                {
+                    searches[k].looked(surfaces, &jobs[k], t, form.range(), work);
                 }
             }
         }
     }
-    let cover = known.cover;
-    known.open.retain(|p| p.t.lo() < cover);
-    known
+    for (k, search) in searches[..jobs.len()].iter_mut().enumerate() {
+        let cover = search.known.cover;
+        search.known.open.retain(|p| p.t.lo() < cover);
+        found(k, &mut search.known, search.cost);
+    }
+}
+
+impl Search {
+    fn new(fan: &Fan) -> Self {
+        let passage = Passage { outer: Interval::EMPTY, inner: Interval::EMPTY };
+        Self {
+            known: Known::default(),
+            cost: Cost::default(),
+            asked: None,
+            stack: Vec::new(),
+            shape: Shape::of(fan),
+            directions: fan.directions(),
+            surface: 0,
+            next: 0,
+            passage,
+            reach: Reach::of(&passage),
+            first_open: 0,
+        }
+    }
+
+    fn begin(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>) {
+        self.known.open.clear();
+        self.known.cover = job.parent.cover;
+        self.known.front.clear();
+        self.known.front.extend_from_slice(&job.parent.front);
+        self.cost = Cost { beams: 1, evaluations: 0 };
+        (self.shape, self.directions, self.next) = (Shape::of(&job.fan), job.fan.directions(), 0);
+        self.stack.clear();
+        self.go_on(surfaces, job);
+    }
+
+    /// Turns to the next surface that has open pieces, if there is one.
+    fn begin_surface(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>) -> bool {
+        let Some(first) = job.parent.open.get(self.next) else { return false };
+        let pieces = &job.parent.open[self.next..];
+        let count = pieces.iter().take_while(|p| p.surface == first.surface).count();
+        self.next += count;
+        self.surface = first.surface;
+        self.passage = surfaces[first.surface].passage(&job.fan.apex, &self.directions);
+        (self.reach, self.first_open) = (Reach::of(&self.passage), self.known.open.len());
+        self.stack.clear();
+        self.stack.extend(pieces[..count].iter().rev().map(|p| p.t));
+        true
+    }
+
+    /// The next piece to look at, of this surface or of a later one.
+    fn go_on(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>) {
+        loop {
+            while let Some(t) = self.stack.pop() {
+                let t = t.intersection(self.passage.outer);
+                if t.is_empty() || t.lo() >= self.known.cover {
+                    continue;
+                }
+                if t.hi() == f64::INFINITY {
+                    // An unbounded region: nothing can be evaluated, nothing is claimed.
+                    self.known.open.push(Piece { surface: self.surface, t });
+                    continue;
+                }
+                if self.cost.evaluations > FRUSTUM_EVALUATIONS {
+                    // The work of one frustum is spent: the rest stays open.
+                    join(&mut self.known.open, self.first_open, Piece { surface: self.surface, t });
+                    continue;
+                }
+                self.cost.evaluations += 1;
+                self.asked = Some(t);
+                return;
+            }
+            if !self.begin_surface(surfaces, job) {
+                self.asked = None;
+                return;
+            }
+        }
+    }
+
+    fn looked(
+        &mut self,
+        surfaces: &[Surface<'_>],
+        job: &Frustum<'_>,
+        t: Interval,
+        mut range: Interval,
+        work: &mut Workspace,
+    ) {
+        let (surface, function) = (self.surface, surfaces[self.surface].function);
+        if range == Interval::ENTIRE {
+            // Affine forms say nothing at the ends of domains; intervals do.
+            self.cost.evaluations += 1;
+            range = function.range(&job.fan.box_at(t), work);
+        }
+        if range.possibly_zero() {
+            if self.shape.long(t, self.reach) {
+                let [near, far] = cut(t);
+                self.stack.push(far);
+                self.stack.push(near);
+            } else {
+                join(&mut self.known.open, self.first_open, Piece { surface, t });
+            }
+        } else if let Some(sign) = Sign::of(range) {
+            // Only parameters at which all rays are inside the region can prove a meeting.
+            let inside = t.intersection(self.passage.inner);
+            if inside.is_empty() {
+                return self.go_on(surfaces, job);
+            }
+            if self.known.open.len() == self.first_open {
+                self.known.front[surface] = Some((sign, inside.hi()));
+            } else if let Some((front, at)) = self.known.front[surface]
+                && front != sign
+                && at <= inside.lo()
+            {
+                let between = || job.fan.box_at(Interval::new(at, inside.lo()));
+                if function.continuous_everywhere() || certainly_continuous(function, &between(), work) {
+                    self.known.cover = self.known.cover.min(inside.lo());
+                    // What lies behind is of no interest.
+                    self.stack.clear();
+                }
+            }
+        }
+        self.go_on(surfaces, job);
+    }
 }

@@ -12,10 +12,10 @@ mod policy;
 mod ray;
 
 pub use bisection::{Bisection, Search, first_section};
-pub use frustum::{Known, narrow};
+pub use frustum::{Frusta, Frustum, Known, narrow};
 pub use piece::{Piece, Sign, Surface, certainly_continuous};
 pub use policy::Effort;
-pub use ray::{Meeting, Scratch, first_meeting};
+pub use ray::{Meeting, Ray, Scratch, first_meeting, first_meetings};
 
 use crate::eval::{Inclusion, Workspace};
 use crate::geom::Beam;

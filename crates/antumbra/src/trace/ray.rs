@@ -1,9 +1,9 @@
-//! The first root along one ray, certified.
+//! The first roots along rays, certified: many rays in lockstep, so that evaluations come in batches.
 use super::piece::certainly_continuous;
 use super::policy::{Effort, Reach, cut, thin, tiny};
 use super::{Cost, Piece, Sign, Surface};
-use crate::eval::Workspace;
-use crate::geom::Beam;
+use crate::eval::{RayPiece, Workspace};
+use crate::geom::{Beam, Passage};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Dual};
@@ -21,38 +21,268 @@ pub struct Meeting {
     pub reason: Option<Reason>,
 }
 
-/// Scratch memory of a ray search.
+/// A thin beam, and where on it a surface may be met.
+#[derive(Clone, Copy, Debug)]
+pub struct Ray<'a> {
+    /// The ray.
+    pub beam: Beam,
+    /// Open pieces, ascending per surface.
+    pub open: &'a [Piece],
+}
+
+/// Scratch memory of ray searches: keep it, it only grows.
 #[derive(Debug, Default)]
 pub struct Scratch {
+    searches: Vec<Search>,
+    active: Vec<usize>,
+    pieces: Vec<RayPiece>,
+    values: Vec<Dual<1>>,
+    ranges: Vec<Interval>,
+    points: Vec<RayPiece>,
+}
+
+const UNKNOWN: Dual<1> = Dual { value: Affine::UNKNOWN, derivative: Affine::UNKNOWN };
+
+/// Steps of interval Newton at most.
+const NEWTON_STEPS: u32 = 40;
+
+/// What a search does next. Every step but the last asks for one or two evaluations.
+#[derive(Clone, Copy, Debug)]
+enum Step {
+    /// Value and derivative on a piece.
+    Look(Interval),
+    /// The signs at both ends of a piece on which f is monotone, with the enclosure of its derivative.
+    Ends(Interval, Interval),
+    /// The value in the middle of an interval that holds exactly one root: for interval Newton.
+    Middle(Newton),
+    /// A sharper derivative there.
+    Sharpen(Newton),
+    /// Nothing more.
+    Done,
+}
+
+/// Interval Newton on an interval that holds exactly one root.
+#[derive(Clone, Copy, Debug)]
+struct Newton {
+    t: Interval,
+    derivative: Interval,
+    /// The sign of f before the root.
+    before: Sign,
+    steps: u32,
+}
+
+/// The search along one ray.
+#[derive(Debug)]
+struct Search {
+    step: Step,
+    best: Option<Meeting>,
+    cost: Cost,
+    /// Of the surface that is looked for: its index, the first of its pieces that follow, where it may be.
+    surface: usize,
+    next: usize,
+    passage: Passage,
+    reach: Reach,
+    /// Evaluations before this surface.
+    begin: u64,
+    before: Option<Sign>,
     stack: Vec<Interval>,
 }
 
-/// The first meeting of a thin beam with a surface in one of the open pieces. `None` proves that there is none.
+impl Default for Search {
+    fn default() -> Self {
+        let passage = Passage { outer: Interval::EMPTY, inner: Interval::EMPTY };
+        Self {
+            step: Step::Done,
+            best: None,
+            cost: Cost::default(),
+            surface: 0,
+            next: 0,
+            passage,
+            reach: Reach::of(&passage),
+            begin: 0,
+            before: None,
+            stack: Vec::new(),
+        }
+    }
+}
+
+/// The first meeting of each ray with a surface in one of its open pieces, and what it cost; in the order of the rays. `None`
+/// proves that there is none.
 ///
 /// Each piece is settled by the enclosure of f; or, where the derivative along the ray has a proved sign, by the signs of
 /// f at both ends: equal signs exclude a root (f is monotone), opposite ones prove exactly one if f is continuous on the
 /// piece, which interval Newton then encloses: `N = m - f(m) / f'(T)` contains every root in T (mean value theorem).
+///
+/// The searches do not know of each other: the answer for a ray, and its cost, are the same in any company.
+pub fn first_meetings(
+    surfaces: &[Surface<'_>],
+    rays: &[Ray<'_>],
+    effort: Effort,
+    scratch: &mut Scratch,
+    work: &mut Workspace,
+    mut found: impl FnMut(usize, Option<Meeting>, Cost),
+) {
+    let Scratch { searches, active, pieces, values, ranges, points } = scratch;
+    if searches.len() < rays.len() {
+        searches.resize_with(rays.len(), Search::default);
+    }
+    active.clear();
+    for (k, ray) in rays.iter().enumerate() {
+        searches[k].begin(&Context { surfaces, ray, effort });
+        active.push(k);
+    }
+    loop {
+        active.retain(|k| !matches!(searches[*k].step, Step::Done));
+        if active.is_empty() {
+            break;
+        }
+        for (surface, of) in surfaces.iter().enumerate() {
+            let of_this = |search: &Search| search.surface == surface;
+            pieces.clear();
+            points.clear();
+            for &k in active.iter().filter(|k| of_this(&searches[**k])) {
+                let ray = rays[k].beam;
+                let mut at = |t: f64| points.push(RayPiece { ray, t: Interval::point(t) });
+                match searches[k].step {
+                    Step::Look(t) | Step::Sharpen(Newton { t, .. }) => pieces.push(RayPiece { ray, t }),
+                    Step::Ends(t, _) => {
+                        at(t.lo());
+                        at(t.hi());
+                    }
+                    Step::Middle(newton) => at(newton.t.mid()),
+                    Step::Done => {}
+                }
+            }
+            values.resize(pieces.len(), UNKNOWN);
+            ranges.resize(points.len(), Interval::ENTIRE);
+            of.function.rays(pieces, values, work);
+            of.function.ranges(points, ranges, work);
+            // In the order of the questions. Nothing known where there is no answer, which does not happen.
+            let (mut value, mut range) = (values.iter(), ranges.iter());
+            let mut value = || value.next().copied().unwrap_or(UNKNOWN);
+            let mut range = || range.next().copied().unwrap_or(Interval::ENTIRE);
+            for &k in active.iter() {
+                let search = &mut searches[k];
+                if !of_this(search) {
+                    continue;
+                }
+                let context = Context { surfaces, ray: &rays[k], effort };
+                match search.step {
+                    Step::Look(t) => search.looked(&context, t, value(), work),
+                    Step::Sharpen(newton) => search.sharpened(&context, newton, value()),
+                    Step::Ends(t, derivative) => {
+                        let signs = [Sign::of(range()), Sign::of(range())];
+                        search.met(&context, t, derivative, signs, work);
+                    }
+                    Step::Middle(newton) => search.stepped(&context, newton, range()),
+                    Step::Done => {}
+                }
+            }
+        }
+    }
+    for (k, search) in searches[..rays.len()].iter().enumerate() {
+        found(k, search.best, search.cost);
+    }
+}
+
+/// The same for one ray; the cost is added to `cost`.
 pub fn first_meeting(
     surfaces: &[Surface<'_>],
-    ray: &Beam,
+    beam: &Beam,
     open: &[Piece],
     effort: Effort,
     scratch: &mut Scratch,
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Option<Meeting> {
-    let mut best: Option<Meeting> = None;
-    let mut next = 0;
-    while next < open.len() {
-        let surface = open[next].surface;
-        let end = next + open[next..].iter().take_while(|p| p.surface == surface).count();
-        let pieces = &open[next..end];
-        next = end;
-        // Up to the end of the enclosure: within it, the order of two surfaces is not known.
-        let until = best.map_or(f64::INFINITY, |b| b.t.hi());
-        let found = first_of_surface(surface, &surfaces[surface], ray, pieces, until, effort, scratch, work, cost);
-        // Two surfaces whose enclosures overlap: the earlier bound wins, and the order is not proved.
-        best = match (best, found) {
+    let mut meeting = None;
+    first_meetings(surfaces, &[Ray { beam: *beam, open }], effort, scratch, work, |_, found, spent| {
+        meeting = found;
+        *cost += spent;
+    });
+    meeting
+}
+
+/// What every step of a search needs.
+struct Context<'a> {
+    surfaces: &'a [Surface<'a>],
+    ray: &'a Ray<'a>,
+    effort: Effort,
+}
+
+impl Context<'_> {
+    /// Whether a surface's function is proved continuous on a piece.
+    fn continuous(&self, surface: usize, t: Interval, work: &mut Workspace) -> bool {
+        let f = self.surfaces[surface].function;
+        f.continuous_everywhere() || certainly_continuous(f, &self.ray.beam.at(t), work)
+    }
+}
+
+impl Search {
+    /// Starts anew.
+    fn begin(&mut self, c: &Context<'_>) {
+        (self.best, self.cost, self.next) = (None, Cost::default(), 0);
+        if self.begin_surface(c) {
+            self.go_on(c);
+        }
+    }
+
+    /// Turns to the next surface that has open pieces, if there is one.
+    fn begin_surface(&mut self, c: &Context<'_>) -> bool {
+        let Some(first) = c.ray.open.get(self.next) else {
+            self.step = Step::Done;
+            return false;
+        };
+        let pieces = &c.ray.open[self.next..];
+        let count = pieces.iter().take_while(|p| p.surface == first.surface).count();
+        self.next += count;
+        self.surface = first.surface;
+        self.passage = c.surfaces[first.surface].passage(&c.ray.beam.origin.to_box(), &c.ray.beam.direction);
+        (self.reach, self.begin, self.before) = (Reach::of(&self.passage), self.cost.evaluations, None);
+        self.stack.clear();
+        self.stack.extend(pieces[..count].iter().rev().map(|p| p.t));
+        true
+    }
+
+    /// The next piece to look at, of this surface or of a later one.
+    fn go_on(&mut self, c: &Context<'_>) {
+        loop {
+            // Up to the end of the enclosure of what was found: within it, the order of two surfaces is not known.
+            let until = self.best.map_or(f64::INFINITY, |b| b.t.hi());
+            let mut found = None;
+            while let Some(t) = self.stack.pop() {
+                let t = t.intersection(self.passage.outer);
+                if t.is_empty() || t.lo() > until {
+                    continue;
+                }
+                let give_up = |reason| Meeting { surface: self.surface, t, before: self.before, reason: Some(reason) };
+                if t.hi() == f64::INFINITY {
+                    found = Some(give_up(Reason::Resolution));
+                    break;
+                }
+                if self.cost.evaluations - self.begin > c.effort.evaluations() {
+                    found = Some(give_up(Reason::Budget));
+                    break;
+                }
+                self.ask(1, Step::Look(t));
+                return;
+            }
+            self.keep(found);
+            if !self.begin_surface(c) {
+                return;
+            }
+        }
+    }
+
+    fn ask(&mut self, evaluations: u64, step: Step) {
+        self.cost.evaluations += evaluations;
+        self.step = step;
+    }
+
+    /// Takes what was found on a surface. Two surfaces whose enclosures overlap: the earlier bound wins, and the order is not
+    /// proved.
+    fn keep(&mut self, found: Option<Meeting>) {
+        self.best = match (self.best, found) {
             (Some(a), Some(b)) => {
                 let (first, second) = if b.t.lo() < a.t.lo() { (b, a) } else { (a, b) };
                 let overlap = first.t.hi() >= second.t.lo();
@@ -61,125 +291,102 @@ pub fn first_meeting(
             (a, b) => a.or(b),
         };
     }
-    best
-}
 
-#[expect(clippy::too_many_arguments, reason = "one call site; the search and its scratch memory")]
-fn first_of_surface(
-    surface: usize,
-    of: &Surface<'_>,
-    ray: &Beam,
-    pieces: &[Piece],
-    until: f64,
-    effort: Effort,
-    scratch: &mut Scratch,
-    work: &mut Workspace,
-    cost: &mut Cost,
-) -> Option<Meeting> {
-    let f = of.function;
-    let passage = of.passage(&ray.origin.to_box(), &ray.direction);
-    let direction: [Affine<1>; 3] = ray.direction.0.map(Affine::constant);
-    let (reach, begin) = (Reach::of(&passage), cost.evaluations);
-    scratch.stack.clear();
-    scratch.stack.extend(pieces.iter().rev().map(|p| p.t));
-    let mut before = None;
-    while let Some(t) = scratch.stack.pop() {
-        let t = t.intersection(passage.outer);
-        if t.is_empty() || t.lo() > until {
-            continue;
+    /// This surface is done with.
+    fn conclude(&mut self, c: &Context<'_>, found: Meeting) {
+        self.keep(Some(found));
+        if self.begin_surface(c) {
+            self.go_on(c);
         }
-        if t.hi() == f64::INFINITY {
-            return Some(Meeting { surface, t, before, reason: Some(Reason::Resolution) });
-        }
-        if cost.evaluations - begin > effort.evaluations() {
-            return Some(Meeting { surface, t, before, reason: Some(Reason::Budget) });
-        }
-        let s = Affine::<1>::spanning(0, t);
-        let point = std::array::from_fn(|k| Dual {
-            value: (s * direction[k]).add_f64(ray.origin[k]),
-            derivative: direction[k],
-        });
-        cost.evaluations += 1;
-        let Dual { value, derivative } = f.ray(point, work);
-        let (mut value, derivative) = (value.range(), derivative.range());
+    }
+
+    fn looked(&mut self, c: &Context<'_>, t: Interval, dual: Dual<1>, work: &mut Workspace) {
+        let mut value = dual.value.range();
         if value == Interval::ENTIRE {
             // Affine forms say nothing at the ends of domains; intervals do.
-            cost.evaluations += 1;
-            value = f.range(&ray.at(t), work);
+            self.cost.evaluations += 1;
+            value = c.surfaces[self.surface].function.range(&c.ray.beam.at(t), work);
         }
         if !value.possibly_zero() {
-            before = Sign::of(value).or(before);
-            continue;
+            self.before = Sign::of(value).or(self.before);
+            return self.go_on(c);
         }
-        if !derivative.possibly_zero() && certainly_continuous(f, &ray.at(t), work) {
-            cost.evaluations += 2;
-            let mut sign_at = |t: f64| Sign::of(f.range(&ray.at(Interval::point(t)), work));
-            match (sign_at(t.lo()), sign_at(t.hi())) {
-                (Some(a), Some(b)) if a == b => {
-                    before = Some(b);
-                    continue;
-                }
-                (Some(a), Some(_)) => {
-                    let t = newton(of, ray, t, derivative, effort, work, cost);
-                    // The root must lie where the surface exists.
-                    let inside = t.intersection(passage.inner) == t;
-                    let reason = (!inside).then_some(Reason::Resolution);
-                    return Some(Meeting { surface, t, before: Some(a), reason });
-                }
-                _ => {}
-            }
+        let derivative = dual.derivative.range();
+        if !derivative.possibly_zero() && c.continuous(self.surface, t, work) {
+            self.ask(2, Step::Ends(t, derivative));
+        } else {
+            self.divide(c, t, work);
         }
-        if tiny(t, reach, effort) {
-            let reason = if certainly_continuous(f, &ray.at(t), work) { Reason::Touching } else { Reason::Domain };
-            return Some(Meeting { surface, t, before, reason: Some(reason) });
+    }
+
+    fn divide(&mut self, c: &Context<'_>, t: Interval, work: &mut Workspace) {
+        if tiny(t, self.reach, c.effort) {
+            let reason = if c.continuous(self.surface, t, work) { Reason::Touching } else { Reason::Domain };
+            return self.conclude(c, Meeting { surface: self.surface, t, before: self.before, reason: Some(reason) });
         }
         let [near, far] = cut(t);
-        scratch.stack.push(far);
-        scratch.stack.push(near);
+        self.stack.push(far);
+        self.stack.push(near);
+        self.go_on(c);
     }
-    None
-}
 
-/// Narrows an interval that holds exactly one root, with the given enclosure of the derivative.
-fn newton(
-    of: &Surface<'_>,
-    ray: &Beam,
-    mut t: Interval,
-    derivative: Interval,
-    effort: Effort,
-    work: &mut Workspace,
-    cost: &mut Cost,
-) -> Interval {
-    let f = of.function;
-    let mut slope = derivative;
-    if thin(t, t, effort) {
-        return t;
+    fn met(
+        &mut self,
+        c: &Context<'_>,
+        t: Interval,
+        derivative: Interval,
+        signs: [Option<Sign>; 2],
+        work: &mut Workspace,
+    ) {
+        match signs {
+            [Some(a), Some(b)] if a == b => {
+                self.before = Some(b);
+                self.go_on(c);
+            }
+            [Some(before), Some(_)] => {
+                let newton = Newton { t, derivative, before, steps: 0 };
+                if thin(t, t, c.effort) {
+                    self.proved(c, newton);
+                } else {
+                    self.ask(1, Step::Middle(newton));
+                }
+            }
+            _ => self.divide(c, t, work),
+        }
     }
-    for _ in 0..40 {
-        let middle = Interval::point(t.mid());
-        cost.evaluations += 1;
-        let step = f.range(&ray.at(middle), work) / slope;
-        let narrower = (middle - step).intersection(t);
+
+    fn stepped(&mut self, c: &Context<'_>, newton: Newton, value: Interval) {
+        let step = value / newton.derivative;
+        let narrower = (Interval::point(newton.t.mid()) - step).intersection(newton.t);
         if narrower.is_empty() {
             // Only possible if an enclosure failed; keep what is proved.
-            return t;
+            return self.proved(c, newton);
         }
-        let old = t;
-        t = narrower;
-        if thin(t, old, effort) {
-            break;
-        }
-        let direction: [Affine<1>; 3] = ray.direction.0.map(Affine::constant);
-        let s = Affine::<1>::spanning(0, t);
-        let point = std::array::from_fn(|k| Dual {
-            value: (s * direction[k]).add_f64(ray.origin[k]),
-            derivative: direction[k],
-        });
-        cost.evaluations += 1;
-        let sharper = f.ray(point, work).derivative.range();
-        if !sharper.possibly_zero() {
-            slope = sharper.intersection(slope);
+        let next = Newton { t: narrower, ..newton };
+        if thin(narrower, newton.t, c.effort) {
+            self.proved(c, next);
+        } else {
+            self.ask(1, Step::Sharpen(next));
         }
     }
-    t
+
+    fn sharpened(&mut self, c: &Context<'_>, mut newton: Newton, dual: Dual<1>) {
+        let sharper = dual.derivative.range();
+        if !sharper.possibly_zero() {
+            newton.derivative = sharper.intersection(newton.derivative);
+        }
+        newton.steps += 1;
+        if newton.steps == NEWTON_STEPS {
+            self.proved(c, newton);
+        } else {
+            self.ask(1, Step::Middle(newton));
+        }
+    }
+
+    /// The interval holds exactly one root. It must lie where the surface exists.
+    fn proved(&mut self, c: &Context<'_>, Newton { t, before, .. }: Newton) {
+        let inside = t.intersection(self.passage.inner) == t;
+        let reason = (!inside).then_some(Reason::Resolution);
+        self.conclude(c, Meeting { surface: self.surface, t, before: Some(before), reason });
+    }
 }

@@ -1,3 +1,4 @@
+mod batches;
 mod decorations;
 mod expressions;
 mod forms;

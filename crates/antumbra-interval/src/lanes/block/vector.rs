@@ -1,0 +1,149 @@
+//! Eight numbers at a time, on each level.
+//!
+//! Every operation is the IEEE 754 one in round to nearest on each of the eight, and nothing is contracted, so a formula
+//! written with it gives the same bits on every level, and those of the same formula on single numbers.
+
+/// Numbers of one vector.
+pub(super) const WIDTH: usize = 8;
+
+/// Eight numbers in memory, aligned for every level.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[repr(C, align(64))]
+pub struct Eight(pub [f64; WIDTH]);
+
+/// Eight numbers in registers.
+pub trait Vector: Copy {
+    /// Eight answers.
+    type Mask: Copy;
+    /// Eight times `x`.
+    fn splat(x: f64) -> Self;
+    /// From memory.
+    fn load(from: &Eight) -> Self;
+    /// To memory.
+    fn store(self, to: &mut Eight);
+    /// `self + o`.
+    fn add(self, o: Self) -> Self;
+    /// `self - o`.
+    fn sub(self, o: Self) -> Self;
+    /// `self * o`.
+    fn mul(self, o: Self) -> Self;
+    /// Sign bit cleared.
+    fn abs(self) -> Self;
+    /// Sign bit flipped.
+    fn neg(self) -> Self;
+    /// `self < o`, false on NaN.
+    fn lt(self, o: Self) -> Self::Mask;
+    /// `self <= o`, false on NaN.
+    fn le(self, o: Self) -> Self::Mask;
+    /// `yes` where the answer is yes, else `no`.
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self;
+    /// Both.
+    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// One or the other.
+    fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// Eight times yes.
+    fn always() -> Self::Mask;
+    /// Bit `i` is answer `i`.
+    fn bits(mask: Self::Mask) -> u8;
+    /// Whether all are yes.
+    #[inline(always)]
+    fn all(mask: Self::Mask) -> bool {
+        Self::bits(mask) == u8::MAX
+    }
+    /// `x > y ? x : y`.
+    #[inline(always)]
+    fn greater(self, o: Self) -> Self {
+        Self::select(o.lt(self), self, o)
+    }
+    /// `x < y ? x : y`.
+    #[inline(always)]
+    fn lesser(self, o: Self) -> Self {
+        Self::select(self.lt(o), self, o)
+    }
+}
+
+/// Plain Rust.
+#[derive(Clone, Copy)]
+pub(super) struct Plain([f64; WIDTH]);
+
+macro_rules! each {
+    ($i:ident => $value:expr) => {{
+        let mut out = [Default::default(); WIDTH];
+        let mut $i = 0;
+        while $i < WIDTH {
+            out[$i] = $value;
+            $i += 1;
+        }
+        out
+    }};
+}
+
+impl Vector for Plain {
+    type Mask = [bool; WIDTH];
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self([x; WIDTH])
+    }
+    #[inline(always)]
+    fn load(from: &Eight) -> Self {
+        Self(from.0)
+    }
+    #[inline(always)]
+    fn store(self, to: &mut Eight) {
+        to.0 = self.0;
+    }
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self(each!(i => self.0[i] + o.0[i]))
+    }
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self(each!(i => self.0[i] - o.0[i]))
+    }
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        Self(each!(i => self.0[i] * o.0[i]))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(each!(i => self.0[i].abs()))
+    }
+    #[inline(always)]
+    fn neg(self) -> Self {
+        Self(each!(i => -self.0[i]))
+    }
+    #[inline(always)]
+    fn lt(self, o: Self) -> Self::Mask {
+        each!(i => self.0[i] < o.0[i])
+    }
+    #[inline(always)]
+    fn le(self, o: Self) -> Self::Mask {
+        each!(i => self.0[i] <= o.0[i])
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(each!(i => if mask[i] { yes.0[i] } else { no.0[i] }))
+    }
+    #[inline(always)]
+    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        each!(i => a[i] & b[i])
+    }
+    #[inline(always)]
+    fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        each!(i => a[i] | b[i])
+    }
+    #[inline(always)]
+    fn always() -> Self::Mask {
+        [true; WIDTH]
+    }
+    #[inline(always)]
+    fn bits(mask: Self::Mask) -> u8 {
+        let mut bits = 0;
+        let mut i = 0;
+        while i < WIDTH {
+            bits |= u8::from(mask[i]) << i;
+            i += 1;
+        }
+        bits
+    }
+}

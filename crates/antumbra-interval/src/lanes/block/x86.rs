@@ -1,0 +1,205 @@
+//! Vectors of AVX-512 and AVX2.
+//!
+//! The intrinsics are called from functions that are always inlined, in the end into one that has the feature: [`on_avx512`],
+//! [`on_avx2`]. Nothing else of the crate makes such vectors.
+use super::vector::{Eight, Vector};
+use super::{Act, Packed, act};
+use std::arch::x86_64::{
+    __m256d, __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd,
+    _mm256_blendv_pd, _mm256_cmp_pd, _mm256_load_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_or_pd, _mm256_set1_pd,
+    _mm256_store_pd, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd, _mm512_add_pd, _mm512_castpd_si512,
+    _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_load_pd, _mm512_mask_blend_pd, _mm512_mul_pd, _mm512_set1_epi64,
+    _mm512_set1_pd, _mm512_store_pd, _mm512_sub_pd, _mm512_xor_epi64,
+};
+
+/// Proof that this processor and operating system support AVX2.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Avx2 {
+    _only_from_detect: (),
+}
+
+impl Avx2 {
+    /// The proof, if the processor has the instructions.
+    #[must_use]
+    pub fn detect() -> Option<Self> {
+        std::arch::is_x86_feature_detected!("avx2").then_some(Self { _only_from_detect: () })
+    }
+}
+
+/// Eight numbers of AVX-512.
+#[derive(Clone, Copy)]
+pub(super) struct V512(__m512d);
+
+/// Two times four numbers of AVX2.
+#[derive(Clone, Copy)]
+pub(super) struct V256([__m256d; 2]);
+
+// SAFETY of every block below: such vectors exist only below `on_avx512` and `on_avx2`, which run only where the processor has
+// the feature. Loads and stores are of 64 bytes behind a reference, aligned by the type.
+impl Vector for V512 {
+    type Mask = __mmask8;
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self(unsafe { _mm512_set1_pd(x) })
+    }
+    #[inline(always)]
+    fn load(from: &Eight) -> Self {
+        Self(unsafe { _mm512_load_pd(from.0.as_ptr()) })
+    }
+    #[inline(always)]
+    fn store(self, to: &mut Eight) {
+        unsafe { _mm512_store_pd(to.0.as_mut_ptr(), self.0) }
+    }
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self(unsafe { _mm512_add_pd(self.0, o.0) })
+    }
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self(unsafe { _mm512_sub_pd(self.0, o.0) })
+    }
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        Self(unsafe { _mm512_mul_pd(self.0, o.0) })
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        Self(unsafe { _mm512_abs_pd(self.0) })
+    }
+    #[inline(always)]
+    fn neg(self) -> Self {
+        // XOR of doubles proper would need AVX-512DQ.
+        Self(unsafe { _mm512_castsi512_pd(_mm512_xor_epi64(_mm512_castpd_si512(self.0), _mm512_set1_epi64(i64::MIN))) })
+    }
+    #[inline(always)]
+    fn lt(self, o: Self) -> __mmask8 {
+        unsafe { _mm512_cmp_pd_mask::<_CMP_LT_OQ>(self.0, o.0) }
+    }
+    #[inline(always)]
+    fn le(self, o: Self) -> __mmask8 {
+        unsafe { _mm512_cmp_pd_mask::<_CMP_LE_OQ>(self.0, o.0) }
+    }
+    #[inline(always)]
+    fn select(mask: __mmask8, yes: Self, no: Self) -> Self {
+        Self(unsafe { _mm512_mask_blend_pd(mask, no.0, yes.0) })
+    }
+    #[inline(always)]
+    fn both(a: __mmask8, b: __mmask8) -> __mmask8 {
+        a & b
+    }
+    #[inline(always)]
+    fn either(a: __mmask8, b: __mmask8) -> __mmask8 {
+        a | b
+    }
+    #[inline(always)]
+    fn always() -> __mmask8 {
+        u8::MAX
+    }
+    #[inline(always)]
+    fn bits(mask: __mmask8) -> u8 {
+        mask
+    }
+}
+
+/// A function of two or three pairs of halves.
+macro_rules! halves {
+    ($f:ident $x:expr, $y:expr) => {
+        unsafe { [$f($x[0], $y[0]), $f($x[1], $y[1])] }
+    };
+    ($f:ident $x:expr, $y:expr, $z:expr) => {
+        unsafe { [$f($x[0], $y[0], $z[0]), $f($x[1], $y[1], $z[1])] }
+    };
+}
+
+impl Vector for V256 {
+    type Mask = [__m256d; 2];
+    #[inline(always)]
+    fn splat(x: f64) -> Self {
+        Self(unsafe { [_mm256_set1_pd(x); 2] })
+    }
+    #[inline(always)]
+    fn load(from: &Eight) -> Self {
+        Self(unsafe { [_mm256_load_pd(from.0.as_ptr()), _mm256_load_pd(from.0.as_ptr().add(4))] })
+    }
+    #[inline(always)]
+    fn store(self, to: &mut Eight) {
+        unsafe {
+            _mm256_store_pd(to.0.as_mut_ptr(), self.0[0]);
+            _mm256_store_pd(to.0.as_mut_ptr().add(4), self.0[1]);
+        }
+    }
+    #[inline(always)]
+    fn add(self, o: Self) -> Self {
+        Self(halves!(_mm256_add_pd self.0, o.0))
+    }
+    #[inline(always)]
+    fn sub(self, o: Self) -> Self {
+        Self(halves!(_mm256_sub_pd self.0, o.0))
+    }
+    #[inline(always)]
+    fn mul(self, o: Self) -> Self {
+        Self(halves!(_mm256_mul_pd self.0, o.0))
+    }
+    #[inline(always)]
+    fn abs(self) -> Self {
+        let sign = Self::splat(-0.0);
+        Self(halves!(_mm256_andnot_pd sign.0, self.0))
+    }
+    #[inline(always)]
+    fn neg(self) -> Self {
+        let sign = Self::splat(-0.0);
+        Self(halves!(_mm256_xor_pd self.0, sign.0))
+    }
+    #[inline(always)]
+    fn lt(self, o: Self) -> Self::Mask {
+        unsafe { [_mm256_cmp_pd::<_CMP_LT_OQ>(self.0[0], o.0[0]), _mm256_cmp_pd::<_CMP_LT_OQ>(self.0[1], o.0[1])] }
+    }
+    #[inline(always)]
+    fn le(self, o: Self) -> Self::Mask {
+        unsafe { [_mm256_cmp_pd::<_CMP_LE_OQ>(self.0[0], o.0[0]), _mm256_cmp_pd::<_CMP_LE_OQ>(self.0[1], o.0[1])] }
+    }
+    #[inline(always)]
+    fn select(mask: Self::Mask, yes: Self, no: Self) -> Self {
+        Self(halves!(_mm256_blendv_pd no.0, yes.0, mask))
+    }
+    #[inline(always)]
+    fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        halves!(_mm256_and_pd a, b)
+    }
+    #[inline(always)]
+    fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask {
+        halves!(_mm256_or_pd a, b)
+    }
+    #[inline(always)]
+    fn always() -> Self::Mask {
+        Self::splat(0.0).le(Self::splat(0.0))
+    }
+    #[inline(always)]
+    fn bits(mask: Self::Mask) -> u8 {
+        unsafe { (_mm256_movemask_pd(mask[0]) | _mm256_movemask_pd(mask[1]) << 4) as u8 }
+    }
+}
+
+/// Runs an operation on AVX-512.
+#[inline]
+pub(super) fn with_avx512<F: Packed>(_: super::super::Avx512, act_: Act, memory: &mut [Eight], vectors: usize) {
+    // SAFETY: the proof exists only where the processor has the feature.
+    unsafe { on_avx512::<F>(act_, memory, vectors) }
+}
+
+/// Runs an operation on AVX2.
+#[inline]
+pub(super) fn with_avx2<F: Packed>(_: Avx2, act_: Act, memory: &mut [Eight], vectors: usize) {
+    // SAFETY: the proof exists only where the processor has the feature.
+    unsafe { on_avx2::<F>(act_, memory, vectors) }
+}
+
+#[target_feature(enable = "avx512f")]
+fn on_avx512<F: Packed>(act_: Act, memory: &mut [Eight], vectors: usize) {
+    act::<V512, F>(act_, memory, vectors);
+}
+
+#[target_feature(enable = "avx2")]
+fn on_avx2<F: Packed>(act_: Act, memory: &mut [Eight], vectors: usize) {
+    act::<V256, F>(act_, memory, vectors);
+}

@@ -1,0 +1,107 @@
+//! Blocks against the scalar operators: the same bits in every lane, on every level that this machine has.
+mod nasty;
+
+use antumbra_interval::Interval;
+use antumbra_interval::affine::{Affine, Dual};
+use antumbra_interval::lanes::Level;
+use antumbra_interval::lanes::block::{Block, MOST, Packed, Ring};
+use nasty::Generator;
+
+/// Numbers that break things, among ordinary ones.
+fn number(g: &mut Generator) -> f64 {
+    if g.below(3) == 0 { g.number() } else { g.moderate() }
+}
+
+fn affine<const N: usize>(g: &mut Generator) -> Affine<N> {
+    match g.below(12) {
+        0 => Affine::UNKNOWN,
+        1 => -Affine::UNKNOWN,
+        2 => Affine::constant(g.any()),
+        3 => Affine::symbol(g.below(N as u64) as usize),
+        _ => {
+            let e = if g.below(4) == 0 { 0.0 } else { number(g).abs() };
+            Affine::linear(number(g), std::array::from_fn(|_| if g.below(4) == 0 { 0.0 } else { number(g) }), e)
+        }
+    }
+}
+
+fn dual<const N: usize>(g: &mut Generator) -> Dual<N> {
+    Dual { value: affine(g), derivative: if g.below(4) == 0 { Affine::ZERO } else { affine(g) } }
+}
+
+/// Every operation on blocks of every length, in place and not, against the operator.
+fn agree<F: Packed + std::fmt::Debug>(any: impl Fn(&mut Generator) -> F, seed: u64, rounds: usize) {
+    let mut g = Generator(seed);
+    let mut block = Block::<F>::default();
+    for level in Level::all() {
+        for round in 0..rounds {
+            let lanes = round % MOST + 1;
+            let operands: [Vec<F>; 3] = std::array::from_fn(|_| (0..lanes).map(|_| any(&mut g)).collect());
+            for op in 0..=Ring::ALL.len() {
+                // Results in a slot of their own, or in that of an operand.
+                let out = [3, 0, 1][round % 3];
+                block.prepare(4, lanes);
+                for (slot, operand) in operands.iter().enumerate() {
+                    operand.iter().enumerate().for_each(|(lane, x)| block.set(slot, lane, *x));
+                    block.pad(slot, lanes);
+                }
+                let ring = Ring::ALL.get(op).copied();
+                match ring {
+                    Some(ring) => block.ring(level, ring, out, 0, 1),
+                    None => block.coordinate(level, out, 0, 1, 2),
+                }
+                for lane in 0..lanes {
+                    let [a, b, c] = [0, 1, 2].map(|k: usize| operands[k][lane]);
+                    let wanted = ring.map_or_else(|| F::coordinate(a, b, c), |op| F::ring(op, a, b));
+                    let got = block.get(out, lane);
+                    let same = (0..F::COMPONENTS).all(|i| got.component(i).to_bits() == wanted.component(i).to_bits());
+                    let question = || format!("{level:?} {ring:?} lane {lane} of {lanes}: {a:?} {b:?} {c:?}");
+                    assert!(same, "{}: {got:?} instead of {wanted:?}", question());
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn intervals() {
+    agree(Generator::any, 1, 1000);
+    // Such as renderers meet: no lane is left to the scalar operator.
+    let ordinary = |g: &mut Generator| {
+        if g.below(6) == 0 {
+            return Interval::ZERO;
+        }
+        let (a, b) = (number(g), number(g));
+        if a <= b { Interval::new(a, b) } else { Interval::new(b, a) }
+    };
+    agree(ordinary, 2, 1000);
+}
+
+#[test]
+fn affine_forms() {
+    agree(affine::<1>, 3, 500);
+    agree(affine::<3>, 4, 500);
+    agree(affine::<5>, 5, 500);
+}
+
+#[test]
+fn values_with_derivatives() {
+    agree(dual::<1>, 6, 500);
+    agree(dual::<3>, 7, 500);
+}
+
+#[test]
+fn lanes_one_by_one_and_constants() {
+    let mut block = Block::<Affine<3>>::default();
+    for lanes in [1, 7, 8, 9, 64] {
+        block.prepare(3, lanes);
+        block.fill(0, Affine::constant(Interval::new(1.0, 2.0)));
+        block.map(lanes, 1, 0, Affine::sqrt);
+        block.map2(lanes, 2, 1, 0, |a, b| a / b);
+        let root = Affine::<3>::constant(Interval::new(1.0, 2.0)).sqrt();
+        for lane in 0..lanes {
+            assert_eq!(block.get(1, lane), root);
+            assert_eq!(block.get(2, lane), root / Affine::constant(Interval::new(1.0, 2.0)));
+        }
+    }
+}

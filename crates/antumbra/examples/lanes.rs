@@ -1,0 +1,104 @@
+//! Nanoseconds per question and lane of batches, on every level of this machine, beside the same questions one by one:
+//! `cargo run --release -p antumbra --example lanes`.
+//!
+//! Each question is a piece of a ray or frustum of the picture's camera in, and an enclosure out: the lanes are filled and read.
+//! Thread CPU time, the median of several interleaved runs; a Markdown table.
+use antumbra::eval::{FanPiece, Gradient, Inclusion, RayPiece, Workspace};
+use antumbra::expr::Formula;
+use antumbra::geom::{Box3, Film};
+use antumbra::scene::{PRESETS, preset};
+use antumbra::tape::Tape;
+use antumbra_interval::Interval;
+use antumbra_interval::affine::{Affine, Dual};
+use antumbra_interval::lanes::Level;
+use cpu_time::ThreadTime;
+use std::hint::black_box;
+
+/// Questions of one run.
+const QUESTIONS: usize = 4096;
+/// Runs of which the median is shown.
+const RUNS: usize = 15;
+
+/// The questions of a scene: neighbouring pixels, each at some depth.
+struct Questions {
+    rays: Vec<RayPiece>,
+    points: Vec<RayPiece>,
+    fans: Vec<FanPiece>,
+    regions: Vec<Box3>,
+}
+
+fn questions(name: &str) -> Questions {
+    let scene = preset(name).expect("a preset").expect("a preset");
+    let film = Film { camera: scene.view.camera(1.0), width: 512, height: 512 };
+    let distance = (scene.view.target - film.camera.eye).length();
+    let pixel = |k: usize| (200 + k % 64, 200 + k / 64);
+    let at = |k: usize| distance * (0.9 + 0.2 * (k * 37 % 101) as f64 / 101.0);
+    let piece = |k: usize| Interval::new(at(k), at(k) * 1.003);
+    let ray = |k: usize| film.ray(pixel(k).0, pixel(k).1);
+    let fan = |k: usize| film.fan(pixel(k).0..pixel(k).0 + 1, pixel(k).1..pixel(k).1 + 1);
+    let points = (0..QUESTIONS).map(|k| RayPiece { ray: ray(k), t: Interval::point(at(k)) });
+    Questions {
+        rays: (0..QUESTIONS).map(|k| RayPiece { ray: ray(k), t: piece(k) }).collect(),
+        fans: (0..QUESTIONS).map(|k| FanPiece { fan: fan(k), t: piece(k) }).collect(),
+        regions: points.clone().map(|p| p.region().mid().to_box()).collect(),
+        points: points.collect(),
+    }
+}
+
+/// Asks all questions in batches of `n`; in the order interval, affine, dual, gradient.
+fn ask(tape: &Tape, form: usize, q: &Questions, n: usize, work: &mut Workspace) {
+    let mut ranges = [Interval::ZERO; 64];
+    let mut forms = [Affine::<3>::ZERO; 64];
+    let mut duals = [Dual { value: Affine::<1>::ZERO, derivative: Affine::ZERO }; 64];
+    let mut gradients = [Gradient { value: Interval::ZERO, partials: [Interval::ZERO; 3] }; 64];
+    match form {
+        0 => q.points.chunks_exact(n).for_each(|part| tape.ranges(part, &mut ranges[..n], work)),
+        1 => q.fans.chunks_exact(n).for_each(|part| tape.beams(part, &mut forms[..n], work)),
+        2 => q.rays.chunks_exact(n).for_each(|part| tape.rays(part, &mut duals[..n], work)),
+        _ => q.regions.chunks_exact(n).for_each(|part| tape.gradients(part, &mut gradients[..n], work)),
+    }
+    black_box((&ranges, &forms, &duals, &gradients));
+}
+
+fn main() {
+    let widths = [1, 8, 16, 32, 64];
+    let mut work: Vec<(String, Workspace, &[usize])> = vec![("one by one".into(), Workspace::default(), &widths[..1])];
+    for level in Level::all() {
+        let name = format!("{level:?}");
+        let name = name.split('(').next().unwrap_or_default().to_owned();
+        work.push((name, Workspace::on(level), &widths[1..]));
+    }
+    print!("| |");
+    work.iter().for_each(|(name, _, widths)| widths.iter().for_each(|n| print!(" {name} {n} |")));
+    print!("\n|---|");
+    work.iter().for_each(|(_, _, widths)| widths.iter().for_each(|_| print!("---|")));
+    println!();
+    for preset in &PRESETS[..4] {
+        let formula = Formula::parse(preset.formula).expect("a preset");
+        let tape = Tape::compile(formula.surface().formula()).expect("a preset");
+        let q = questions(preset.name);
+        for (form, name) in
+            ["interval", "affine (t, i, j)", "affine value and derivative", "gradient"].iter().enumerate()
+        {
+            let columns: usize = work.iter().map(|(_, _, widths)| widths.len()).sum();
+            let mut times = vec![Vec::with_capacity(RUNS); columns];
+            for _ in 0..RUNS {
+                let mut column = 0;
+                for (_, work, widths) in &mut work {
+                    for &n in *widths {
+                        let begin = ThreadTime::now();
+                        ask(&tape, form, &q, n, work);
+                        times[column].push(begin.elapsed().as_secs_f64() * 1e9 / QUESTIONS as f64);
+                        column += 1;
+                    }
+                }
+            }
+            print!("| {} {name} |", preset.name);
+            for mut times in times {
+                times.sort_by(f64::total_cmp);
+                print!(" {:.1} |", times[RUNS / 2]);
+            }
+            println!();
+        }
+    }
+}

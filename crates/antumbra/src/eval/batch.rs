@@ -1,0 +1,309 @@
+//! Many questions at once: the interpreter over blocks of lanes.
+//!
+//! A tape is run once for up to [`MOST`] questions. Every lane has the bits of the one interpreter on single numbers
+//! ([`run`](super::run)), on every machine: so whether, and with which neighbours, a question is asked in a batch changes no answer.
+use super::{Gradient, Number};
+use crate::expr::{Binary, Unary};
+use crate::geom::{Beam, Box3, Fan};
+use crate::tape::{Op, Tape};
+use antumbra_interval::Interval;
+use antumbra_interval::affine::{Affine, Dual};
+use antumbra_interval::lanes::Level;
+use antumbra_interval::lanes::block::{Block, MOST, Packed, Ring};
+
+/// Parameters `t` of a thin beam.
+#[derive(Clone, Copy, Debug)]
+pub struct RayPiece {
+    /// The ray.
+    pub ray: Beam,
+    /// Parameters, bounded and not empty.
+    pub t: Interval,
+}
+
+impl RayPiece {
+    /// Box of its points.
+    #[must_use]
+    #[inline]
+    pub fn region(&self) -> Box3 {
+        self.ray.at(self.t)
+    }
+
+    /// Its points, as linear functions of a symbol that runs along the piece, with their derivatives by t.
+    #[must_use]
+    #[inline]
+    pub fn point(&self) -> [Dual<1>; 3] {
+        let s = Affine::<1>::spanning(0, self.t);
+        std::array::from_fn(|k| {
+            let direction = Affine::constant(self.ray.direction[k]);
+            Dual { value: (s * direction).add_f64(self.ray.origin[k]), derivative: direction }
+        })
+    }
+}
+
+/// Parameters `t` of a fan of rays.
+#[derive(Clone, Copy, Debug)]
+pub struct FanPiece {
+    /// The rays.
+    pub fan: Fan,
+    /// Parameters, bounded and not empty.
+    pub t: Interval,
+}
+
+/// Fewer questions than these are asked one by one.
+const FEWEST: usize = 3;
+
+/// Slots before those of the tape: the parameter, three directions that become coordinates, three starting points.
+const OWN: usize = 7;
+
+/// Scratch memory of batches.
+#[derive(Debug)]
+pub(super) struct Scratch {
+    level: Level,
+    ranges: Block<Interval>,
+    rays: Block<Dual<1>>,
+    beams: Block<Affine<3>>,
+    /// Which slot holds the value of a slot of the tape.
+    places: Vec<usize>,
+}
+
+impl Default for Scratch {
+    fn default() -> Self {
+        Self::on(Level::detect())
+    }
+}
+
+impl Scratch {
+    pub(super) fn on(level: Level) -> Self {
+        Self { level, ranges: Block::default(), rays: Block::default(), beams: Block::default(), places: Vec::new() }
+    }
+}
+
+/// Runs a tape on a block whose slots 0 to 6 hold parameter, directions and starting points; tells where the value is.
+fn run_block<F: Number + Packed>(
+    tape: &Tape,
+    block: &mut Block<F>,
+    lanes: usize,
+    level: Level,
+    places: &mut Vec<usize>,
+) -> usize {
+    for axis in 0..3 {
+        block.coordinate(level, 1 + axis, 0, 1 + axis, 4 + axis);
+    }
+    places.clear();
+    places.resize(tape.slots(), 0);
+    let mut last = 0;
+    for clause in tape.clauses() {
+        let (a, b) = (places[clause.a as usize], places[clause.b as usize]);
+        let out = OWN + clause.out as usize;
+        last = out;
+        match clause.op {
+            Op::Constant(index) => block.fill(out, F::constant(tape.constants()[index as usize])),
+            // Nothing writes the slots of the axes: they need no copy.
+            Op::Axis(axis) => last = 1 + axis as usize,
+            Op::Unary(Unary::Neg) => block.ring(level, Ring::Neg, out, a, a),
+            Op::Unary(Unary::Sqr) => block.ring(level, Ring::Sqr, out, a, a),
+            Op::Binary(Binary::Add) => block.ring(level, Ring::Add, out, a, b),
+            Op::Binary(Binary::Sub) => block.ring(level, Ring::Sub, out, a, b),
+            Op::Binary(Binary::Mul) => block.ring(level, Ring::Mul, out, a, b),
+            Op::Unary(op) => block.map(lanes, out, a, |x| x.unary(op)),
+            Op::Powi(n) => block.map(lanes, out, a, |x| x.powi(n)),
+            Op::Binary(op) => block.map2(lanes, out, a, b, |x, y| x.binary(op, y)),
+        }
+        places[clause.out as usize] = last;
+    }
+    last
+}
+
+/// Starting points: mostly one for all lanes.
+fn start<F: Packed, T>(
+    block: &mut Block<F>,
+    pieces: &[T],
+    of: impl Fn(&T, usize) -> Interval,
+    form: impl Fn(Interval) -> F,
+) {
+    for axis in 0..3 {
+        let first = of(&pieces[0], axis);
+        if pieces.iter().all(|piece| of(piece, axis) == first) {
+            block.fill(4 + axis, form(first));
+        } else {
+            pieces.iter().enumerate().for_each(|(lane, piece)| block.set(4 + axis, lane, form(of(piece, axis))));
+            block.pad(4 + axis, pieces.len());
+        }
+    }
+}
+
+impl Scratch {
+    /// Enclosures of the function over the boxes of the pieces.
+    pub(super) fn ranges(&mut self, tape: &Tape, pieces: &[RayPiece], out: &mut [Interval]) -> Unasked {
+        let Self { level, ranges: block, places, .. } = self;
+        for (pieces, out) in pieces.chunks(MOST).zip(out.chunks_mut(MOST)) {
+            let lanes = pieces.len();
+            if lanes < FEWEST {
+                return Unasked(lanes);
+            }
+            block.prepare(OWN + tape.slots(), lanes);
+            for (lane, piece) in pieces.iter().enumerate() {
+                block.set(0, lane, piece.t);
+                (0..3).for_each(|axis| block.set(1 + axis, lane, piece.ray.direction[axis]));
+            }
+            (0..4).for_each(|slot| block.pad(slot, lanes));
+            start(block, pieces, |piece, axis| Interval::point(piece.ray.origin[axis]), |p| p);
+            let value = run_block(tape, block, lanes, *level, places);
+            out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
+        }
+        Unasked(0)
+    }
+
+    /// Values and derivatives along the pieces.
+    pub(super) fn rays(&mut self, tape: &Tape, pieces: &[RayPiece], out: &mut [Dual<1>]) -> Unasked {
+        let Self { level, rays: block, places, .. } = self;
+        for (pieces, out) in pieces.chunks(MOST).zip(out.chunks_mut(MOST)) {
+            let lanes = pieces.len();
+            if lanes < FEWEST {
+                return Unasked(lanes);
+            }
+            block.prepare(OWN + tape.slots(), lanes);
+            for (lane, piece) in pieces.iter().enumerate() {
+                block.set_first(0, lane, &Affine::<1>::spanning(0, piece.t));
+                for axis in 0..3 {
+                    block.set_first(1 + axis, lane, &Affine::<1>::constant(piece.ray.direction[axis]));
+                }
+            }
+            (0..4).for_each(|slot| block.pad(slot, lanes));
+            start(block, pieces, |piece, axis| Interval::point(piece.ray.origin[axis]), Dual::constant);
+            let value = run_block(tape, block, lanes, *level, places);
+            out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
+        }
+        Unasked(0)
+    }
+
+    /// The function as linear functions over the pieces.
+    pub(super) fn beams(&mut self, tape: &Tape, pieces: &[FanPiece], out: &mut [Affine<3>]) -> Unasked {
+        let Self { level, beams: block, places, .. } = self;
+        for (pieces, out) in pieces.chunks(MOST).zip(out.chunks_mut(MOST)) {
+            let lanes = pieces.len();
+            if lanes < FEWEST {
+                return Unasked(lanes);
+            }
+            block.prepare(OWN + tape.slots(), lanes);
+            for (lane, piece) in pieces.iter().enumerate() {
+                block.set(0, lane, Affine::spanning(0, piece.t));
+                (0..3).for_each(|axis| block.set(1 + axis, lane, piece.fan.direction[axis]));
+            }
+            (0..4).for_each(|slot| block.pad(slot, lanes));
+            start(block, pieces, |piece, axis| piece.fan.apex[axis], Affine::constant);
+            let value = run_block(tape, block, lanes, *level, places);
+            out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
+        }
+        Unasked(0)
+    }
+}
+
+/// Interval slots of a gradient: value and partial derivatives.
+const PARTS: usize = 4;
+/// Interval slots before those of the tape: the coordinates, and two for intermediate results.
+const OWN_OF_GRADIENTS: usize = 3 * PARTS + 2;
+
+impl Scratch {
+    /// Enclosures of value and gradient over boxes.
+    pub(super) fn gradients(&mut self, tape: &Tape, regions: &[Box3], out: &mut [Gradient]) -> Unasked {
+        let Self { ranges: block, .. } = self;
+        for (regions, out) in regions.chunks(MOST).zip(out.chunks_mut(MOST)) {
+            let lanes = regions.len();
+            if lanes < FEWEST {
+                return Unasked(lanes);
+            }
+            block.prepare(OWN_OF_GRADIENTS + PARTS * tape.slots(), lanes);
+            for axis in 0..3 {
+                let slot = PARTS * axis;
+                regions.iter().enumerate().for_each(|(lane, region)| block.set(slot, lane, region[axis]));
+                block.pad(slot, lanes);
+                for k in 0..3 {
+                    block.fill(slot + 1 + k, if k == axis { Interval::ONE } else { Interval::ZERO });
+                }
+            }
+            let mut machine = Gradients { block, level: self.level, lanes };
+            let value = machine.run(tape, &mut self.places);
+            out.iter_mut().enumerate().for_each(|(lane, out)| *out = machine.get(value, lane));
+        }
+        Unasked(0)
+    }
+}
+
+/// Gradients in a block of intervals: step by step the operations of [`Gradient`]'s `Number`.
+struct Gradients<'a> {
+    block: &'a mut Block<Interval>,
+    level: Level,
+    lanes: usize,
+}
+
+impl Gradients<'_> {
+    fn run(&mut self, tape: &Tape, places: &mut Vec<usize>) -> usize {
+        places.clear();
+        places.resize(tape.slots(), 0);
+        let mut last = 0;
+        for clause in tape.clauses() {
+            let (a, b) = (places[clause.a as usize], places[clause.b as usize]);
+            let out = OWN_OF_GRADIENTS + PARTS * clause.out as usize;
+            last = out;
+            match clause.op {
+                Op::Constant(index) => {
+                    self.block.fill(out, tape.constants()[index as usize]);
+                    (1..PARTS).for_each(|k| self.block.fill(out + k, Interval::ZERO));
+                }
+                Op::Axis(axis) => last = PARTS * axis as usize,
+                Op::Unary(Unary::Neg) => (0..PARTS).for_each(|k| self.ring(Ring::Neg, out + k, a + k, a + k)),
+                Op::Unary(Unary::Sqr) => self.sqr(out, a),
+                Op::Binary(Binary::Add) => (0..PARTS).for_each(|k| self.ring(Ring::Add, out + k, a + k, b + k)),
+                Op::Binary(Binary::Sub) => (0..PARTS).for_each(|k| self.ring(Ring::Sub, out + k, a + k, b + k)),
+                Op::Binary(Binary::Mul) => self.mul(out, a, b),
+                Op::Unary(op) => self.map(out, a, a, |x, _| x.unary(op)),
+                Op::Powi(n) => self.map(out, a, a, |x, _| x.powi(n)),
+                Op::Binary(op) => self.map(out, a, b, |x, y| x.binary(op, y)),
+            }
+            places[clause.out as usize] = last;
+        }
+        last
+    }
+
+    fn ring(&mut self, op: Ring, out: usize, a: usize, b: usize) {
+        self.block.ring(self.level, op, out, a, b);
+    }
+
+    /// `(a b)' = a b' + a' b`; the value last, as the slots may be the same.
+    fn mul(&mut self, out: usize, a: usize, b: usize) {
+        let [left, right] = [3 * PARTS, 3 * PARTS + 1];
+        for k in 1..PARTS {
+            self.ring(Ring::Mul, left, a, b + k);
+            self.ring(Ring::Mul, right, a + k, b);
+            self.ring(Ring::Add, out + k, left, right);
+        }
+        self.ring(Ring::Mul, out, a, b);
+    }
+
+    /// `(a^2)' = 2 a a'`.
+    fn sqr(&mut self, out: usize, a: usize) {
+        let twice = 3 * PARTS;
+        self.ring(Ring::Add, twice, a, a);
+        (1..PARTS).for_each(|k| self.ring(Ring::Mul, out + k, twice, a + k));
+        self.ring(Ring::Sqr, out, a, a);
+    }
+
+    fn map(&mut self, out: usize, a: usize, b: usize, f: impl Fn(Gradient, Gradient) -> Gradient) {
+        for lane in 0..self.lanes {
+            let x = f(self.get(a, lane), self.get(b, lane));
+            self.block.set(out, lane, x.value);
+            (0..3).for_each(|k| self.block.set(out + 1 + k, lane, x.partials[k]));
+        }
+        (0..PARTS).for_each(|k| self.block.pad(out + k, self.lanes));
+    }
+
+    fn get(&self, slot: usize, lane: usize) -> Gradient {
+        let at = |k: usize| self.block.get(slot + k, lane);
+        Gradient { value: at(0), partials: [at(1), at(2), at(3)] }
+    }
+}
+
+/// So many questions at the end are still to be asked, one by one.
+#[must_use]
+pub(super) struct Unasked(pub(super) usize);

@@ -1,0 +1,471 @@
+//! Primary visibility of the certified method: blocks of pixels that are divided until everything is proved or counted.
+//!
+//! Breadth first: all frusta of one size together, then the centre rays of all pixels together, and so on, so that
+//! evaluations come in batches. No search knows of its neighbours, hence all results and costs are those of one pixel
+//! after another.
+use super::by_proof::{BLOCK, Block, indices};
+use super::pixel::{Edge, Hit, Known, Pixel};
+use super::task::{Asked, HitScratch, Task};
+use crate::eval::Workspace;
+use crate::geom::{Beam, Fan};
+use crate::shadow::Receiver;
+use crate::trace::{
+    self, Cost, Effort, Frusta, Frustum, Known as Open, Meeting, Piece, Ray, Surface, first_meeting, first_meetings,
+    narrow,
+};
+use crate::verdict::Reason;
+use antumbra_interval::Interval;
+use std::sync::Mutex;
+
+/// Blocks up to this side whose frustum is covered by one simple piece are not divided further.
+const SIMPLE: usize = 4;
+/// A pixel that an edge crosses is divided this often, for the bounds of its coverage.
+const COVERAGE_LEVELS: u32 = 2;
+/// Cosine between normals within a pixel from which it is shown as one surface.
+const PLAIN_NORMAL: f64 = 0.97;
+/// Rays along each side of such a pixel, for its colour.
+pub(super) const EDGE_RAYS: usize = 4;
+/// Parts `(i, j)` of a pixel in its corners.
+const CORNERS: [(usize, usize); 4] = [(0, 0), (EDGE_RAYS - 1, 0), (0, EDGE_RAYS - 1), (EDGE_RAYS - 1, EDGE_RAYS - 1)];
+
+/// What a block is divided into: a tree, in which the nodes of a level follow each other.
+struct Node {
+    block: Block,
+    open: Open,
+    /// Of its frustum alone.
+    cost: Cost,
+    /// Its parts in the order of the picture; empty for a leaf.
+    children: std::ops::Range<usize>,
+}
+
+/// A pixel that may show something.
+struct Sight<'a> {
+    column: usize,
+    row: usize,
+    open: &'a Open,
+    ray: Beam,
+    pixel: Pixel,
+    /// Another surface in front of what the centre ray meets.
+    thin: Option<Hit>,
+    stage: Stage,
+}
+
+/// What is still to be found out about a pixel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Stage {
+    /// Nothing.
+    Settled,
+    /// How much of it is covered.
+    Coverage,
+    /// Whether its corners look like its middle.
+    Corners,
+    /// What a grid of its rays meets.
+    Edge,
+}
+
+/// Scratch memory of one thread: keep it, it only grows.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    pub(super) work: Workspace,
+    pub(super) frusta: Frusta,
+    pub(super) rays: trace::Scratch,
+    pub(super) hits: HitScratch,
+}
+
+/// Scratch memory that no thread has at the moment.
+#[derive(Debug, Default)]
+pub(super) struct Spare(Mutex<Vec<Scratch>>);
+
+impl Spare {
+    /// Some memory, new if there is none.
+    pub(super) fn take(&self) -> Scratch {
+        self.0.lock().ok().and_then(|mut spare| spare.pop()).unwrap_or_default()
+    }
+
+    /// Memory for the next one.
+    pub(super) fn give(&self, scratch: Scratch) {
+        // Poisoned by a panic elsewhere: then it is dropped.
+        if let Ok(mut spare) = self.0.lock() {
+            spare.push(scratch);
+        }
+    }
+}
+
+struct Primary<'a> {
+    task: &'a Task,
+    surfaces: Vec<Surface<'a>>,
+    scratch: &'a mut Scratch,
+}
+
+/// A ray and what it meets; the number is the asker's.
+type Met = (usize, Beam, Meeting);
+
+/// Primary visibility of the block at `(column, row)`, clipped to the picture.
+pub(super) fn primary(task: &Task, column: usize, row: usize, scratch: &mut Scratch) -> Vec<Pixel> {
+    let mut pass = Primary { task, surfaces: task.surfaces(), scratch };
+    let nodes = pass.divide((column, row, BLOCK));
+    let mut sights = pass.centres(&nodes);
+    pass.coverages(&mut sights);
+    pass.corners(&mut sights);
+    pass.edges(&mut sights);
+    in_order(task, &nodes, sights)
+}
+
+/// All pixels, a block's quarter after the other. What a frustum costs is booked on the first pixel below it.
+fn in_order(task: &Task, nodes: &[Node], sights: Vec<Sight<'_>>) -> Vec<Pixel> {
+    let mut found: Vec<Option<Pixel>> = Vec::new();
+    let slot = |index: usize| {
+        let (column, row) = (index % task.film.width % BLOCK, index / task.film.width % BLOCK);
+        row * BLOCK + column
+    };
+    found.resize_with(BLOCK * BLOCK, || None);
+    for sight in sights {
+        let slot = slot(sight.pixel.index);
+        found[slot] = Some(sight.pixel);
+    }
+    let (mut out, mut owed, mut stack) = (Vec::with_capacity(BLOCK * BLOCK), Cost::default(), vec![0]);
+    while let Some(k) = stack.pop() {
+        let node = &nodes[k];
+        owed += node.cost;
+        stack.extend(node.children.clone().rev());
+        if node.children.is_empty() {
+            for index in indices(task, node.block) {
+                let mut pixel = found[slot(index)].take().unwrap_or_else(|| empty(index));
+                pixel.cost += std::mem::take(&mut owed);
+                out.push(pixel);
+            }
+        }
+    }
+    out
+}
+
+fn empty(index: usize) -> Pixel {
+    Pixel { index, known: Known::Empty, coverage: [0.0; 2], hit: None, edge: None, cost: Cost::default() }
+}
+
+impl Primary<'_> {
+    fn fan(&self, (column, row, side): Block) -> Fan {
+        let film = &self.task.film;
+        film.fan(column..(column + side).min(film.width), row..(row + side).min(film.height))
+    }
+
+    /// Divides a block until its parts are empty, simple, or pixels.
+    fn divide(&mut self, whole: Block) -> Vec<Node> {
+        let nothing = Open::nothing(&self.surfaces, &self.fan(whole));
+        let node = |block| Node { block, open: Open::default(), cost: Cost::default(), children: 0..0 };
+        let mut nodes = vec![node(whole)];
+        // Of each node, its parent.
+        let mut parents = vec![0];
+        let mut level = 0..1;
+        while !level.is_empty() {
+            let (before, now) = nodes.split_at_mut(level.start);
+            let jobs: Vec<Frustum<'_>> = now
+                .iter()
+                .zip(&parents[level.start..])
+                .map(|(n, parent)| Frustum {
+                    fan: self.fan(n.block),
+                    parent: before.get(*parent).map_or(&nothing, |p| &p.open),
+                })
+                .collect();
+            let Scratch { frusta, work, .. } = &mut *self.scratch;
+            narrow(&self.surfaces, &jobs, frusta, work, |k, open, cost| {
+                now[k].open = std::mem::take(open);
+                now[k].cost = cost;
+            });
+            for k in level.clone() {
+                let (column, row, side) = nodes[k].block;
+                let open = &nodes[k].open;
+                // Small, covered and simple: straight to the rays.
+                let simple = side <= SIMPLE && open.certainly_covered() && open.open.len() == 1;
+                if side == 1 || simple || open.certainly_empty() {
+                    continue;
+                }
+                let (half, first) = (side / 2, nodes.len());
+                for (down, right) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
+                    let child = (column + right * half, row + down * half, half);
+                    if child.0 < self.task.film.width && child.1 < self.task.film.height {
+                        nodes.push(node(child));
+                        parents.push(k);
+                    }
+                }
+                nodes[k].children = first..nodes.len();
+            }
+            level = level.end..nodes.len();
+        }
+        nodes
+    }
+
+    /// What the centre rays of all pixels meet that may show something.
+    fn centres<'n>(&mut self, nodes: &'n [Node]) -> Vec<Sight<'n>> {
+        let mut sights: Vec<Sight<'n>> = Vec::with_capacity(BLOCK * BLOCK);
+        for node in nodes.iter().filter(|n| n.children.is_empty() && !n.open.certainly_empty()) {
+            for index in indices(self.task, node.block) {
+                let (column, row) = (index % self.task.film.width, index / self.task.film.width);
+                let ray = self.task.film.ray(column, row);
+                let (pixel, thin, stage) = (empty(index), None, Stage::Settled);
+                sights.push(Sight { column, row, open: &node.open, ray, pixel, thin, stage });
+            }
+        }
+        let rays: Vec<Ray<'_>> = sights.iter().map(|s| Ray { beam: s.ray, open: &s.open.open }).collect();
+        let found = self.meet(&rays, Effort::FINE);
+        let met: Vec<Met> =
+            sights.iter().zip(&found).enumerate().filter_map(|(k, (s, (m, _)))| Some((k, s.ray, (*m)?))).collect();
+        self.hits(&met, |k, hit| sights[k].pixel.hit = Some(hit));
+        for (sight, (centre, cost)) in sights.iter_mut().zip(found) {
+            let pixel = &mut sight.pixel;
+            pixel.cost = cost;
+            pixel.known = match centre {
+                Some(Meeting { reason: None, .. }) => Known::Hit,
+                Some(Meeting { reason: Some(reason), .. }) => Known::Undecided(reason),
+                None => Known::Undecided(Reason::Resolution),
+            };
+            let covered = sight.open.certainly_covered();
+            if pixel.known == Known::Undecided(Reason::Budget) {
+                pixel.coverage = [0.0, 1.0];
+            } else {
+                pixel.coverage = [1.0; 2];
+                // Else an edge, or something thin: how much of the pixel is covered, and by what?
+                if !(covered && sight.open.open.len() == 1 && pixel.known == Known::Hit) {
+                    sight.stage = Stage::Coverage;
+                }
+            }
+        }
+        sights
+    }
+
+    /// How much of the pixels is covered that are not simply covered; and what is in front of what their centre rays meet.
+    fn coverages(&mut self, sights: &mut [Sight<'_>]) {
+        let mut asked: Vec<&mut Sight<'_>> = sights.iter_mut().filter(|s| s.stage == Stage::Coverage).collect();
+        let film = &self.task.film;
+        let windows: Vec<Window<'_>> = asked
+            .iter()
+            .filter(|s| !s.open.certainly_covered())
+            .map(|s| Window { film: film.window(s.column..s.column + 1, s.row..s.row + 1), parent: s.open })
+            .collect();
+        let mut found = self.coverage(&windows, COVERAGE_LEVELS).into_iter();
+        for sight in &mut asked {
+            let pixel = &mut sight.pixel;
+            if !sight.open.certainly_covered()
+                && let Some((coverage, cost)) = found.next()
+            {
+                pixel.coverage = outward(coverage);
+                pixel.cost += cost;
+            }
+            if pixel.coverage[1] == 0.0 {
+                (pixel.known, pixel.hit, sight.stage) = (Known::Empty, None, Stage::Settled);
+                continue;
+            }
+            sight.thin = pixel.hit.and_then(|hit| {
+                let before = |p: &&Piece| p.surface != hit.object && p.t.lo() < hit.t.lo();
+                let piece = sight.open.open.iter().find(before)?;
+                // An enclosure over the whole pixel reaches too far beside an edge: ask its parts.
+                let film = film.window(sight.column..sight.column + 1, sight.row..sight.row + 1);
+                let window = Window { film, parent: sight.open };
+                if !self.remains(piece, hit.t.lo(), window, COVERAGE_LEVELS, &mut pixel.cost) {
+                    return None;
+                }
+                let beam = self.task.film.beam(sight.column, sight.row);
+                Some(self.task.hit(in_front(piece, beam), &mut self.scratch.work))
+            });
+            sight.stage = if sight.thin.is_none() && pixel.hit.is_some() { Stage::Corners } else { Stage::Edge };
+        }
+    }
+
+    /// Whether rays near the corners of a pixel meet about the same as its centre ray: then one colour will do.
+    fn corners(&mut self, sights: &mut [Sight<'_>]) {
+        for (i, j) in CORNERS {
+            let mut asked: Vec<&mut Sight<'_>> = sights.iter_mut().filter(|s| s.stage == Stage::Corners).collect();
+            let rays: Vec<Ray<'_>> = asked.iter().map(|s| self.part(s, i, j)).collect();
+            let found = self.meet(&rays, self.task.glance);
+            let met: Vec<Met> = rays
+                .iter()
+                .zip(&found)
+                .enumerate()
+                .filter_map(|(k, (ray, (m, _)))| Some((k, ray.beam, (*m)?)))
+                .collect();
+            for (sight, (_, cost)) in asked.iter_mut().zip(found) {
+                sight.pixel.cost += cost;
+                sight.stage = Stage::Edge;
+            }
+            self.hits(&met, |k, corner| {
+                let like =
+                    |centre: Hit| corner.normal.dot(centre.normal) > PLAIN_NORMAL && corner.object == centre.object;
+                if asked[k].pixel.hit.is_some_and(like) {
+                    asked[k].stage = Stage::Corners;
+                }
+            });
+        }
+    }
+
+    /// What a grid of rays meets in the pixels that show more than one thing.
+    fn edges(&mut self, sights: &mut [Sight<'_>]) {
+        let mut asked: Vec<&mut Sight<'_>> = sights.iter_mut().filter(|s| s.stage == Stage::Edge).collect();
+        const RAYS: usize = EDGE_RAYS * EDGE_RAYS;
+        let rays: Vec<Ray<'_>> =
+            asked.iter().flat_map(|s| (0..RAYS).map(|k| self.part(s, k % EDGE_RAYS, k / EDGE_RAYS))).collect();
+        let found = self.meet(&rays, self.task.glance);
+        let met: Vec<Met> =
+            rays.iter().zip(&found).enumerate().filter_map(|(k, (ray, (m, _)))| Some((k, ray.beam, (*m)?))).collect();
+        let mut grids: Vec<Vec<Option<Hit>>> = asked.iter().map(|_| vec![None; RAYS]).collect();
+        self.hits(&met, |k, hit| grids[k / RAYS][k % RAYS] = Some(hit));
+        for ((sight, grid), (rays, found)) in asked.iter_mut().zip(grids).zip(rays.chunks(RAYS).zip(found.chunks(RAYS)))
+        {
+            let Pixel { known, hit, cost, .. } = &mut sight.pixel;
+            for (ray, (meeting, spent)) in rays.iter().zip(found) {
+                *cost += *spent;
+                if let (None, Some(Meeting { reason: None, .. })) = (*hit, meeting)
+                    && let Some(m @ Meeting { reason: None, .. }) = self.meet_finely(ray, cost)
+                {
+                    (*known, *hit) = (Known::Partly, Some(self.hit(&ray.beam, &m)));
+                }
+            }
+            // Something may be there that no ray of the grid meets: it must not vanish.
+            if hit.is_none()
+                && let Some(piece) = sight.open.open.first()
+            {
+                let beam = self.task.film.beam(sight.column, sight.row);
+                *hit = Some(self.task.hit(in_front(piece, beam), &mut self.scratch.work));
+            }
+            sight.pixel.edge = Some(Box::new(Edge { rays: grid, thin: sight.thin }));
+        }
+    }
+
+    /// The ray through the middle of a part of a pixel.
+    fn part<'n>(&self, sight: &Sight<'n>, i: usize, j: usize) -> Ray<'n> {
+        Ray { beam: self.task.film.sub_ray(sight.column, sight.row, i, j, EDGE_RAYS), open: &sight.open.open }
+    }
+
+    fn meet(&mut self, rays: &[Ray<'_>], effort: Effort) -> Vec<(Option<Meeting>, Cost)> {
+        let mut out = Vec::with_capacity(rays.len());
+        let Scratch { rays: scratch, work, .. } = &mut *self.scratch;
+        first_meetings(&self.surfaces, rays, effort, scratch, work, |_, meeting, cost| {
+            out.push((meeting, cost));
+        });
+        out
+    }
+
+    fn meet_finely(&mut self, ray: &Ray<'_>, cost: &mut Cost) -> Option<Meeting> {
+        let Scratch { rays: scratch, work, .. } = &mut *self.scratch;
+        first_meeting(&self.surfaces, &ray.beam, ray.open, Effort::FINE, scratch, work, cost)
+    }
+
+    fn hit(&mut self, ray: &Beam, m: &Meeting) -> Hit {
+        received(self.task.hit(asked(ray, m), &mut self.scratch.work), ray, m)
+    }
+
+    /// The same for many.
+    fn hits(&mut self, met: &[Met], mut found: impl FnMut(usize, Hit)) {
+        let all: Vec<Asked> = met.iter().map(|(_, ray, m)| asked(ray, m)).collect();
+        let Scratch { hits, work, .. } = &mut *self.scratch;
+        self.task.hits(&all, hits, work, |k, hit| {
+            let (asker, ray, m) = &met[k];
+            found(*asker, received(hit, ray, m));
+        });
+    }
+
+    /// Whether the surface of a piece stays possible before `until` in some part of a window of the film.
+    fn remains(&mut self, piece: &Piece, until: f64, window: Window<'_>, levels: u32, cost: &mut Cost) -> bool {
+        window.quarters().into_iter().any(|part| {
+            let fan = self.task.film.fan_of(part.film[0], part.film[1]);
+            let mut open = Open::default();
+            let Scratch { frusta, work, .. } = &mut *self.scratch;
+            narrow(&self.surfaces, &[Frustum { fan, parent: part.parent }], frusta, work, |_, known, spent| {
+                open = std::mem::take(known);
+                *cost += spent;
+            });
+            let there = open.open.iter().any(|p| p.surface == piece.surface && p.t.lo() < until);
+            there && (levels <= 1 || self.remains(piece, until, Window { parent: &open, ..part }, levels - 1, cost))
+        })
+    }
+
+    /// Bounds of the covered shares of windows of the film, as if their parts were exact quarters ([`outward`]), and costs.
+    fn coverage(&mut self, windows: &[Window<'_>], levels: u32) -> Vec<([f64; 2], Cost)> {
+        let quarters: Vec<Window<'_>> = windows.iter().flat_map(Window::quarters).collect();
+        let fan_of = |q: &Window<'_>| self.task.film.fan_of(q.film[0], q.film[1]);
+        let jobs: Vec<Frustum<'_>> = quarters.iter().map(|q| Frustum { fan: fan_of(q), parent: q.parent }).collect();
+        let mut open: Vec<(Open, Cost)> = Vec::with_capacity(jobs.len());
+        let Scratch { frusta, work, .. } = &mut *self.scratch;
+        narrow(&self.surfaces, &jobs, frusta, work, |_, known, cost| {
+            open.push((std::mem::take(known), cost));
+        });
+        // Where no quarter is settled (a sheet thinner than the pixel, say), going on would only cost.
+        let settled = |o: &(Open, Cost)| o.0.certainly_empty() || o.0.certainly_covered();
+        let worth = |four: &[(Open, Cost)]| levels > 1 && four.iter().any(settled);
+        let further: Vec<Window<'_>> = open
+            .chunks(4)
+            .zip(quarters.chunks(4))
+            .filter(|(four, _)| worth(four))
+            .flat_map(|(four, parts)| four.iter().zip(parts).filter(|(o, _)| !settled(o)))
+            .map(|(o, part)| Window { film: part.film, parent: &o.0 })
+            .collect();
+        let mut finer = if further.is_empty() { Vec::new() } else { self.coverage(&further, levels - 1) }.into_iter();
+        let mut sums = Vec::with_capacity(windows.len());
+        for four in open.chunks(4) {
+            let (mut sum, mut cost) = ([0.0; 2], Cost::default());
+            for part in four {
+                cost += part.1;
+                let share = if part.0.certainly_empty() {
+                    [0.0, 0.0]
+                } else if part.0.certainly_covered() {
+                    [1.0, 1.0]
+                } else if worth(four)
+                    && let Some((share, spent)) = finer.next()
+                {
+                    cost += spent;
+                    share
+                } else {
+                    [0.0, 1.0]
+                };
+                sum = [sum[0] + 0.25 * share[0], sum[1] + 0.25 * share[1]];
+            }
+            sums.push((sum, cost));
+        }
+        sums
+    }
+}
+
+fn asked(ray: &Beam, m: &Meeting) -> Asked {
+    Asked { object: m.surface, beam: *ray, t: m.t, before: m.before }
+}
+
+/// With what starts a shadow, where that is proved.
+fn received(hit: Hit, ray: &Beam, m: &Meeting) -> Hit {
+    let receiver = match (m.reason, m.before) {
+        (None, Some(side)) => Some(Receiver { point: ray.at(m.t), surface: m.surface, side }),
+        _ => None,
+    };
+    Hit { receiver, ..hit }
+}
+
+/// Where an open piece of a pixel's beam begins to show.
+fn in_front(piece: &Piece, beam: Beam) -> Asked {
+    Asked { object: piece.surface, beam, t: piece.t, before: None }
+}
+
+/// A part of the film, and what is known of one that it is a part of.
+#[derive(Clone, Copy)]
+struct Window<'a> {
+    film: [Interval; 2],
+    parent: &'a Open,
+}
+
+impl Window<'_> {
+    fn quarters(&self) -> [Self; 4] {
+        let ([left, right], [below, above]) = (halves(self.film[0]), halves(self.film[1]));
+        [[left, below], [right, below], [left, above], [right, above]].map(|film| Self { film, ..*self })
+    }
+}
+
+/// Bounds of a share of a pixel, for parts that are quarters only up to rounding: film coordinates, in `[-1, 1]`, are known
+/// up to 2^-50; a pixel has at least the side 2^-15, so two edges move a share by less than 2 * 2 * 2^-35 < 1e-9. All and
+/// nothing are exact, whatever the parts are.
+fn outward([lo, hi]: [f64; 2]) -> [f64; 2] {
+    const ROUNDING: f64 = 1e-9;
+    [if lo < 1.0 { (lo - ROUNDING).max(0.0) } else { lo }, if hi > 0.0 { (hi + ROUNDING).min(1.0) } else { hi }]
+}
+
+/// The two halves of an interval; they share their edge.
+fn halves(t: Interval) -> [Interval; 2] {
+    let mid = t.mid();
+    [Interval::new(t.lo(), mid), Interval::new(mid, t.hi())]
+}
