@@ -37,7 +37,7 @@ fn inner_edges_are_smooth() {
             mixed += usize::from([column, column + 1].into_iter().any(|k| (0.1..0.9).contains(&share(k))));
         }
     }
-    assert!(steps >= 20 && 2 * mixed > steps, "{mixed} of {steps} steps are smooth");
+    assert!(steps >= 10 && 2 * mixed > steps, "{mixed} of {steps} steps are smooth");
 }
 
 /// Enclosures over pixels reach beyond the surface; on the floor beside it nothing of that may show.
@@ -75,5 +75,5 @@ fn orthographic_cameras_see_no_distance() {
     let [far, near] = hits("width = 5");
     assert!(far > 500 && far.abs_diff(near) <= far / 50, "{far} and {near}");
     let [far, near] = hits("angle = 15");
-    assert!(near > 2 * far && far > 50, "{far} and {near}");
+    assert!(2 * near > 3 * far && far > 50, "{far} and {near}");
 }
