@@ -1,4 +1,9 @@
 //! The gallery: its files are complete, and its formulas are the surfaces that they claim to be.
+#![allow(
+    clippy::disallowed_methods,
+    reason = "rounded points with tolerances, independent of the library's own functions"
+)]
+
 #[path = "gallery/field.rs"]
 mod field;
 #[path = "gallery/files.rs"]

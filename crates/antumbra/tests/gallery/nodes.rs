@@ -68,7 +68,7 @@ fn critical(f: &Field, start: Vec3) -> Option<Vec3> {
         };
         let step = Vec3([replaced(0), replaced(1), replaced(2)]);
         let length = step.length();
-        if !(length < 1e6) {
+        if length.is_nan() || length >= 1e6 {
             return None;
         }
         at = at - step * (0.3 / length).min(1.0);
