@@ -19,6 +19,7 @@ mod jet;
 mod machine;
 mod point;
 mod regions;
+pub mod wgsl;
 
 pub use gradient::Gradient;
 pub use inclusion::{BeamPoint, Inclusion, JetPoint, QuadraticPoint, ShaftPoint, Workspace, centred_range};

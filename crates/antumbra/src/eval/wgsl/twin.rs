@@ -1,0 +1,285 @@
+//! The arithmetic of `forms.wgsl` in Rust, operation by operation: on a GPU that rounds to nearest every bit is the same.
+use super::{FLOOR, ball, exact};
+use crate::eval::Number;
+use crate::expr::{Binary, Unary};
+use antumbra_interval::Interval;
+
+const U: f32 = f32::EPSILON;
+const F: f32 = FLOOR;
+
+/// `Form` of `forms.wgsl`: `c + a.s +- e`. Constants are remembered as such, as the generated text does.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Twin {
+    /// Centre.
+    pub c: f32,
+    /// Error.
+    pub e: f32,
+    /// Coefficients.
+    pub a: [f32; 3],
+    constant: Option<Interval>,
+}
+
+fn sum3(s: f32, a: [f32; 3]) -> f32 {
+    a.iter().fold(s, |s, v| s + v.abs())
+}
+
+impl Twin {
+    /// A form with these numbers.
+    #[must_use]
+    pub const fn new(c: f32, e: f32, a: [f32; 3]) -> Self {
+        Self { c, e, a, constant: None }
+    }
+
+    fn zip(self, o: Self, f: impl Fn(f32, f32) -> f32) -> [f32; 3] {
+        std::array::from_fn(|k| f(self.a[k], o.a[k]))
+    }
+
+    fn sum(c: f32, a: [f32; 3], t: f32) -> Self {
+        let w = sum3(c.abs() + t, a);
+        Self::new(c, t + 4.0 * U * w, a)
+    }
+
+    fn add(self, o: Self) -> Self {
+        Self::sum(self.c + o.c, self.zip(o, |x, y| x + y), self.e + o.e)
+    }
+
+    fn sub(self, o: Self) -> Self {
+        Self::sum(self.c - o.c, self.zip(o, |x, y| x - y), self.e + o.e)
+    }
+
+    fn neg(self) -> Self {
+        Self::new(-self.c, self.e, self.a.map(|v| -v))
+    }
+
+    fn addk(self, m: f32, r: f32) -> Self {
+        let (c, t) = (self.c + m, self.e + r);
+        Self::new(c, t + 4.0 * U * (c.abs() + t), self.a)
+    }
+
+    fn scale(self, k: f32) -> Self {
+        let (c, a, t) = (self.c * k, self.a.map(|v| v * k), self.e * k.abs());
+        let w = sum3(c.abs() + t, a);
+        Self::new(c, t + 5.0 * U * w + F, a)
+    }
+
+    fn mulk(self, m: f32, r: f32) -> Self {
+        let s = sum3(self.c.abs() + self.e, self.a);
+        let size = s * (m.abs() + r);
+        let e = self.e * m.abs() + s * r;
+        Self::new(self.c * m, e + 20.0 * U * size + F, self.a.map(|v| v * m))
+    }
+
+    fn mul(self, o: Self) -> Self {
+        let (r, t) = (sum3(self.e, self.a), sum3(o.e, o.a));
+        let w = self.zip(o, |x, y| x * y);
+        let q = w[0] + w[1] + w[2];
+        let d = w[0].abs() + w[1].abs() + w[2].abs();
+        let (p, s) = (self.c.abs(), o.c.abs());
+        let size = (p + r) * (s + t);
+        let e = (r * t - 0.5 * d) + (p * o.e + s * self.e);
+        let a = std::array::from_fn(|k| self.c * o.a[k] + o.c * self.a[k]);
+        Self::new(self.c * o.c + 0.5 * q, e + 28.0 * U * size + F, a)
+    }
+
+    fn sqr(self) -> Self {
+        let (r, p) = (sum3(self.e, self.a), self.c.abs());
+        let h = 0.5 * (r * r);
+        let s = p + r;
+        let e = h + 2.0 * p * self.e;
+        Self::new(self.c * self.c + h, e + 28.0 * U * (s * s) + F, self.a.map(|v| v * (2.0 * self.c)))
+    }
+
+    fn radius(self) -> f32 {
+        sum3(self.e, self.a) * (1.0 + 8.0 * U)
+    }
+
+    /// The sign that the function has everywhere; 0 if that is not proved.
+    #[must_use]
+    pub fn sign(self) -> i32 {
+        let r = self.radius();
+        i32::from(self.c > r) - i32::from(self.c < -r)
+    }
+
+    fn abs(self) -> Self {
+        match self.sign() {
+            1 => self,
+            -1 => self.neg(),
+            _ => {
+                let h = 0.5 * ((self.c.abs() + self.radius()) * (1.0 + 8.0 * U));
+                Self::new(h, h, [0.0; 3])
+            }
+        }
+    }
+}
+
+impl Number for Twin {
+    fn constant(value: Interval) -> Self {
+        let (m, r) = ball(value);
+        Self { constant: Some(value), ..Self::new(m, r, [0.0; 3]) }
+    }
+
+    fn unary(self, op: Unary) -> Self {
+        match op {
+            Unary::Neg => self.neg(),
+            Unary::Abs => self.abs(),
+            Unary::Sqr => self.sqr(),
+            _ => Self::new(0.0, f32::INFINITY, [0.0; 3]),
+        }
+    }
+
+    fn powi(self, n: i32) -> Self {
+        power(self, n, Self::sqr, Self::mul).unwrap_or(Self::constant(Interval::ONE))
+    }
+
+    fn binary(self, op: Binary, o: Self) -> Self {
+        let shifted = |x: Self, k: Interval| {
+            let (m, r) = ball(k);
+            x.addk(m, r)
+        };
+        let scaled = |x: Self, k: Interval| match exact(k) {
+            Some(k) => x.scale(k),
+            None => {
+                let (m, r) = ball(k);
+                x.mulk(m, r)
+            }
+        };
+        match (op, self.constant, o.constant) {
+            (Binary::Add, _, Some(k)) => shifted(self, k),
+            (Binary::Sub, _, Some(k)) => shifted(self, -k),
+            (Binary::Add, Some(k), _) => shifted(o, k),
+            (Binary::Mul, _, Some(k)) => scaled(self, k),
+            (Binary::Mul, Some(k), _) => scaled(o, k),
+            (Binary::Add, ..) => self.add(o),
+            (Binary::Sub, ..) => self.sub(o),
+            (Binary::Mul, ..) => self.mul(o),
+            (Binary::Max, ..) => self.add(o).add(self.sub(o).abs()).scale(0.5),
+            (Binary::Min, ..) => self.add(o).sub(self.sub(o).abs()).scale(0.5),
+            _ => Self::new(0.0, f32::INFINITY, [0.0; 3]),
+        }
+    }
+}
+
+/// Powers as the generated text takes them; none for the power 0.
+fn power<N: Copy>(x: N, n: i32, sqr: impl Fn(N) -> N, mul: impl Fn(N, N) -> N) -> Option<N> {
+    let n = u32::try_from(n).ok().filter(|n| *n > 0)?;
+    Some((0..n.ilog2()).rev().fold(x, |p, bit| if n >> bit & 1 == 1 { mul(sqr(p), x) } else { sqr(p) }))
+}
+
+/// `Slope` of `forms.wgsl`: the ball `p`, value and slope.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct TwinSlope {
+    /// Middle and radius of the value at the apex.
+    pub p: [f32; 2],
+    /// The value.
+    pub v: Twin,
+    /// The slope.
+    pub g: Twin,
+}
+
+fn b_add(x: [f32; 2], y: [f32; 2]) -> [f32; 2] {
+    let (m, t) = (x[0] + y[0], x[1] + y[1]);
+    [m, t + 4.0 * U * (m.abs() + t)]
+}
+
+fn b_neg(x: [f32; 2]) -> [f32; 2] {
+    [-x[0], x[1]]
+}
+
+fn b_mul(x: [f32; 2], y: [f32; 2]) -> [f32; 2] {
+    let (p, q) = (x[0].abs(), y[0].abs());
+    let r = (p * y[1] + q * x[1]) + x[1] * y[1];
+    let size = (p + x[1]) * (q + y[1]);
+    [x[0] * y[0], r + 20.0 * U * size + F]
+}
+
+impl TwinSlope {
+    fn add(self, o: Self) -> Self {
+        Self { p: b_add(self.p, o.p), v: self.v.add(o.v), g: self.g.add(o.g) }
+    }
+
+    fn sub(self, o: Self) -> Self {
+        Self { p: b_add(self.p, b_neg(o.p)), v: self.v.sub(o.v), g: self.g.sub(o.g) }
+    }
+
+    fn neg(self) -> Self {
+        Self { p: b_neg(self.p), v: self.v.neg(), g: self.g.neg() }
+    }
+
+    fn addk(self, m: f32, r: f32) -> Self {
+        Self { p: b_add(self.p, [m, r]), v: self.v.addk(m, r), g: self.g }
+    }
+
+    fn scale(self, k: f32) -> Self {
+        Self { p: b_mul(self.p, [k, F]), v: self.v.scale(k), g: self.g.scale(k) }
+    }
+
+    fn mulk(self, m: f32, r: f32) -> Self {
+        Self { p: b_mul(self.p, [m, r]), v: self.v.mulk(m, r), g: self.g.mulk(m, r) }
+    }
+
+    fn mul(self, o: Self) -> Self {
+        let g = self.g.mul(o.v).add(o.g.mulk(self.p[0], self.p[1]));
+        Self { p: b_mul(self.p, o.p), v: self.v.mul(o.v), g }
+    }
+
+    fn sqr(self) -> Self {
+        let g = self.g.mul(self.v.addk(self.p[0], self.p[1]));
+        Self { p: b_mul(self.p, self.p), v: self.v.sqr(), g }
+    }
+
+    fn abs(self) -> Self {
+        let (s, b) = (self.v.sign(), [self.p[0].abs(), self.p[1]]);
+        if s != 0 && b[0] > b[1] && (self.p[0] > 0.0) == (s > 0) {
+            return if s > 0 { self } else { self.neg() };
+        }
+        let h = (self.g.c.abs() + self.g.radius()) * (1.0 + 8.0 * U);
+        Self { p: b, v: self.v.abs(), g: Twin::new(0.0, h, [0.0; 3]) }
+    }
+}
+
+impl Number for TwinSlope {
+    fn constant(value: Interval) -> Self {
+        let (m, r) = ball(value);
+        Self { p: [m, r], v: Twin::constant(value), g: Twin::new(0.0, F, [0.0; 3]) }
+    }
+
+    fn unary(self, op: Unary) -> Self {
+        match op {
+            Unary::Neg => self.neg(),
+            Unary::Abs => self.abs(),
+            Unary::Sqr => self.sqr(),
+            _ => Self { g: Twin::new(0.0, f32::INFINITY, [0.0; 3]), ..self },
+        }
+    }
+
+    fn powi(self, n: i32) -> Self {
+        power(self, n, Self::sqr, Self::mul).unwrap_or(Self::constant(Interval::ONE))
+    }
+
+    fn binary(self, op: Binary, o: Self) -> Self {
+        let shifted = |x: Self, k: Interval| {
+            let (m, r) = ball(k);
+            x.addk(m, r)
+        };
+        let scaled = |x: Self, k: Interval| match exact(k) {
+            Some(k) => x.scale(k),
+            None => {
+                let (m, r) = ball(k);
+                x.mulk(m, r)
+            }
+        };
+        match (op, self.v.constant, o.v.constant) {
+            (Binary::Add, _, Some(k)) => shifted(self, k),
+            (Binary::Sub, _, Some(k)) => shifted(self, -k),
+            (Binary::Add, Some(k), _) => shifted(o, k),
+            (Binary::Mul, _, Some(k)) => scaled(self, k),
+            (Binary::Mul, Some(k), _) => scaled(o, k),
+            (Binary::Add, ..) => self.add(o),
+            (Binary::Sub, ..) => self.sub(o),
+            (Binary::Mul, ..) => self.mul(o),
+            (Binary::Max, ..) => self.add(o).add(self.sub(o).abs()).scale(0.5),
+            (Binary::Min, ..) => self.add(o).sub(self.sub(o).abs()).scale(0.5),
+            _ => Self { g: Twin::new(0.0, f32::INFINITY, [0.0; 3]), ..self },
+        }
+    }
+}
