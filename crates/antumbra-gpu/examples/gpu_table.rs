@@ -1,10 +1,11 @@
 //! What a GPU takes for the four scenes of the paper: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats [sizes...]]`.
 //! Prints what the probe says, contradictions against the CPU, and milliseconds by the clock of the GPU, medians.
 use antumbra::geom::{Film, Rect};
-use antumbra::render::{RenderSpec, Renderer, RunSpec};
+use antumbra::paper;
+use antumbra::render::{Method, RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{Scene, named};
 use antumbra::trace::Surface;
-use antumbra_gpu::{Gpu, Kernels, Pixel, Proved, adapters, compare, probe};
+use antumbra_gpu::{Found, Gpu, Kernels, Paper, Pixel, Proved, adapters, compare, probe};
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -60,6 +61,15 @@ fn main() {
         println!("| {name} | {} | {} | {open} | {} of {} | {} |", c.empty, c.hits, c.settled, c.lights, c.contradictions.len());
         c.contradictions.iter().take(5).for_each(|text| println!("  {text}"));
     }
+    println!("\n| the paper, {COMPARED} x {COMPARED}: GPU / CPU | hits | initial beams occluded | pixels in shadow | evaluations: pixels | initial | sub-beams |");
+    println!("|---|---|---|---|---|---|---|");
+    for name in SCENES {
+        let scene = scene(name);
+        match draw_paper(&gpu, &scene, (COMPARED, COMPARED), false, 1) {
+            Ok((found, _)) => compare_paper(name, scene, &found),
+            Err(error) => println!("| {name} | {error} |"),
+        }
+    }
     println!("\nMilliseconds on the GPU, medians of {repeats}; evaluations in millions.\n");
     println!("| scene | size | surfaces | whole light | 8 x 8 | 4 x 4 | sum | wall, with reading back | pixels open % | brackets wider than 1/255 % of hits | divided hits, parts | evaluations: surfaces, light |");
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
@@ -72,6 +82,87 @@ fn main() {
             }
         }
     }
+    println!("\nThe paper's method at {0} x {0}, milliseconds, medians of {1}.\n", PAPER, repeats.min(5));
+    println!("| scene | grid | pixels | initial beams | sub-beams | shadow pass | always 49 | saved % | evaluations: pixels, initial, sub-beams, always 49 (millions) |");
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for name in SCENES {
+        let scene = scene(name);
+        let drawn = draw_paper(&gpu, &scene, (PAPER, PAPER), false, repeats.min(5));
+        let always = draw_paper(&gpu, &scene, (PAPER, PAPER), true, repeats.min(5));
+        if let (Ok((found, times)), Ok((fixed, fixed_times))) = (drawn, always) {
+            let ms = |s: f64| format!("{:.3}", 1e3 * s);
+            let [shadow, all] = [times[2] + times[3], fixed_times[2] + fixed_times[3]];
+            let each: Vec<String> = times.iter().map(|t| ms(*t)).collect();
+            let millions = |n: u64| n as f64 * 1e-6;
+            println!(
+                "| {name} | {} | {} | {} | {:.1} | {:.1}, {:.1}, {:.1}, {:.1} |",
+                each.join(" | "),
+                ms(shadow),
+                ms(all),
+                100.0 * (1.0 - shadow / all),
+                millions(found.evaluations[0]),
+                millions(found.evaluations[1]),
+                millions(found.evaluations[2]),
+                millions(fixed.evaluations[2]),
+            );
+        }
+    }
+}
+
+/// Side of the paper's pictures.
+const PAPER: usize = 512;
+
+/// The paper's method some times, and median seconds of its passes.
+fn draw_paper(gpu: &Gpu, scene: &Scene, (width, height): (usize, usize), always: bool, repeats: usize) -> Result<(Found, Vec<f64>), antumbra_gpu::Error> {
+    let surfaces = surfaces(scene);
+    let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
+    let usual = RenderSpec::default();
+    let settings = paper::Settings {
+        sub_beams: usual.sub_beams,
+        offset: RenderSpec::OFFSET * scene.scale(),
+        bisection: usual.bisection,
+        seed: usual.seed,
+    };
+    let kernels = Paper::new(gpu, &surfaces, &film, &scene.lights[0].rect, &settings, usual.grid, always)?;
+    let stop = AtomicBool::new(false);
+    let mut times: Vec<Vec<f64>> = Vec::new();
+    let mut found = kernels.run(gpu, &stop)?;
+    for _ in 1..repeats {
+        found = kernels.run(gpu, &stop)?;
+        times.push(found.seconds.clone());
+    }
+    let medians = (0..found.seconds.len()).map(|k| median(times.iter().map(|t| t[k]).collect())).collect();
+    Ok((found, medians))
+}
+
+fn compare_paper(name: &str, scene: Scene, found: &Found) {
+    let method = Method::Paper(paper::Method::Initial);
+    let spec = RenderSpec { width: COMPARED, height: COMPARED, method, ..RenderSpec::default() };
+    let mut cpu = Renderer::new(Arc::new(scene), spec, RunSpec::default()).expect("a picture of this size fits");
+    while !cpu.refine(Duration::from_secs(3600)) {}
+    let (stats, planes) = (cpu.stats(), &cpu.frame().lights[0]);
+    let hits = found.hits.iter().flatten().count();
+    let shadow = found.blocked.iter().filter(|b| **b > 0).count();
+    let shadow_cpu = planes.visible_lo.iter().filter(|v| **v < 1.0).count();
+    println!(
+        "| {name} | {hits} / {} | {} / {} | {shadow} / {shadow_cpu} | {} / {} | {} | {} (both {}) |",
+        stats.hits,
+        found.initial_occluded,
+        stats.initial_occluded,
+        found.evaluations[0],
+        stats.primary_evaluations,
+        found.evaluations[1],
+        found.evaluations[2],
+        stats.shadow_evaluations,
+    );
+}
+
+fn surfaces(scene: &Scene) -> Vec<Surface<'_>> {
+    let of = |o| -> Surface<'_> {
+        let o: &antumbra::scene::Object = o;
+        Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() }
+    };
+    scene.objects.iter().map(of).collect()
 }
 
 fn scene(name: &str) -> Scene {
@@ -82,11 +173,7 @@ type Drawn = (Proved, Vec<f64>, f64);
 
 /// Draws it some times: what was proved, median seconds of each pass, and of the whole by the clock on the wall.
 fn draw(gpu: &Gpu, scene: &Scene, (width, height): (usize, usize), repeats: usize) -> Result<Drawn, antumbra_gpu::Error> {
-    let surfaces: Vec<Surface<'_>> = scene
-        .objects
-        .iter()
-        .map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() })
-        .collect();
+    let surfaces = surfaces(scene);
     let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
     let lights: Vec<Rect> = scene.lights.iter().map(|l| l.rect).collect();
     let begin = Instant::now();

@@ -8,6 +8,7 @@
 mod certified;
 mod compare;
 mod device;
+mod paper;
 pub mod probe;
 mod scene;
 #[cfg(test)]
@@ -16,3 +17,4 @@ mod tests;
 pub use certified::{Kernels, Pixel, Proved};
 pub use compare::{Comparison, compare};
 pub use device::{Adapter, Error, Gpu, adapters};
+pub use paper::{Found, Paper};

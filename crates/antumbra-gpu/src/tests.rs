@@ -193,8 +193,7 @@ fn intervals_on_the_gpu_enclose_and_are_tight() {
             let size = 1e-12 * (wanted.magnitude() + 1.0);
             let (lo, hi) = (f64::from(*lo), f64::from(*hi));
             assert!(lo <= wanted.lo() + size && wanted.hi() - size <= hi, "{text} of {input:?}: [{lo}, {hi}] {wanted:?}");
-            // Odd powers beyond the cube are products here, which are wider around 0.
-            let slack = if k == 6 { 10.0 } else { 1e-4 * (wanted.magnitude() + 100.0) };
+            let slack = 1e-4 * (wanted.magnitude() + 100.0);
             assert!(lo > wanted.lo() - slack && wanted.hi() + slack > hi, "{text} of {input:?}: [{lo}, {hi}] {wanted:?}");
         }
     }

@@ -37,12 +37,12 @@ struct Point { x: Form, y: Form, z: Form }
 // Directions c + i s_1 + j s_2 +- e, per axis.
 struct Ray { c: vec3<f32>, i: vec3<f32>, j: vec3<f32>, e: vec3<f32> }
 
-// P + t D for t = (2 pos + len) h +- len h: centre P + tc D, linear terms, and the bilinear ones as error.
+// P + t D for t = tc +- th: centre P + tc D, linear terms, and the bilinear ones as error.
 //
 // Steps, each times u ((|tc| + th) (|D| + |i| + |j| + e) + |P|): coefficients 2 + 1 + 1 + 1, error at most 8, size 5, last sums 3.
-fn along(p: vec3<f32>, p_e: vec3<f32>, ray: Ray, h: f32, pos: u32, len: u32) -> Point {
-    let tc = vec3<f32>(f32(2u * pos + len) * h);
-    let th = vec3<f32>(f32(len) * h);
+fn along(p: vec3<f32>, p_e: vec3<f32>, ray: Ray, t: f32, half: f32) -> Point {
+    let tc = vec3<f32>(t);
+    let th = vec3<f32>(half);
     let c = add3(p, mul3(tc, ray.c));
     let at = mul3(th, ray.c);
     let ai = mul3(tc, ray.i);
@@ -71,7 +71,8 @@ fn pixel_ray(index: u32, spread: f32) -> Ray {
 }
 
 fn camera_point(ray: Ray, pos: u32, len: u32) -> Point {
-    return along(frame.eye.xyz, frame.eye_e.xyz, ray, frame.half_quantum, pos, len);
+    // Exact: whole numbers below 2^24 and a power of two.
+    return along(frame.eye.xyz, frame.eye_e.xyz, ray, f32(2u * pos + len) * frame.half_quantum, f32(len) * frame.half_quantum);
 }
 
 // Whether all points are certainly outside of the clip of a surface: there is none of it.

@@ -40,7 +40,7 @@ fn beam_of(hit: Hit, m: vec2<f32>, h: vec2<f32>) -> Ray {
 
 // Points of the beam: with P = p + r, |r| <= e, P + t (L - P) = p + t (L - p) + (1 - t) r.
 fn beam_point(hit: Hit, ray: Ray, pos: u32, len: u32) -> Point {
-    return along(hit.p, hit.e, ray, frame.half_unit, pos, len);
+    return along(hit.p, hit.e, ray, f32(2u * pos + len) * frame.half_unit, f32(len) * frame.half_unit);
 }
 
 // The slope of f over a piece: the direction from the true hit is L - p - r.

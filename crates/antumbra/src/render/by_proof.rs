@@ -1,4 +1,5 @@
 //! The passes of the certified method: blocks of pixels that are divided until everything is proved or counted.
+use super::given::{Given, GivenPixel};
 use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::task::Task;
 use crate::eval::Workspace;
@@ -30,8 +31,8 @@ struct Primary<'a> {
     rays: trace::Scratch,
 }
 
-/// Primary visibility of the block at `(column, row)`, clipped to the picture.
-pub(super) fn primary(task: &Task, column: usize, row: usize) -> Vec<Pixel> {
+/// Primary visibility of the block at `(column, row)`, clipped to the picture; what is given is not looked for.
+pub(super) fn primary(task: &Task, column: usize, row: usize, given: Option<&Given>) -> Vec<Pixel> {
     let mut pass = Primary {
         task,
         surfaces: task.surfaces(),
@@ -44,21 +45,28 @@ pub(super) fn primary(task: &Task, column: usize, row: usize) -> Vec<Pixel> {
     let mut owed = Cost::default();
     let fan = pass.fan((column, row, BLOCK));
     let mut blocks = vec![((column, row, BLOCK), Open::nothing(&pass.surfaces, &fan))];
+    let known = |index: &usize| given.is_some_and(|g| g.pixels[*index].is_some());
+    if let Some(given) = given {
+        out.extend(indices(task, blocks[0].0).filter_map(|index| pass.given(index, given)));
+    }
     while let Some((block, parent)) = blocks.pop() {
         let (column, row, side) = block;
+        if indices(task, block).all(|index| known(&index)) {
+            continue;
+        }
         let fan = pass.fan(block);
         let open = narrow(&pass.surfaces, &fan, &parent, &mut pass.stack, &mut pass.work, &mut owed);
         // Small, covered and simple: straight to the rays.
         let simple = side <= SIMPLE && open.certainly_covered() && open.open.len() == 1;
         if side == 1 || simple {
-            for index in indices(task, block) {
+            for index in indices(task, block).filter(|index| !known(index)) {
                 let (column, row) = (index % task.film.width, index / task.film.width);
                 out.push(pass.pixel(column, row, &open, std::mem::take(&mut owed)));
             }
             continue;
         }
         if open.certainly_empty() {
-            for index in indices(task, block) {
+            for index in indices(task, block).filter(|index| !known(index)) {
                 let cost = std::mem::take(&mut owed);
                 out.push(Pixel { index, known: Known::Empty, coverage: [0.0; 2], hit: None, edge: None, cost });
             }
@@ -86,6 +94,29 @@ impl Primary<'_> {
     fn fan(&self, (column, row, side): Block) -> crate::geom::Fan {
         let film = &self.task.film;
         film.fan(column..(column + side).min(film.width), row..(row + side).min(film.height))
+    }
+
+    /// A pixel of which all is given. A hit whose light is not is enclosed as narrowly as shadows want it.
+    fn given(&mut self, index: usize, given: &Given) -> Option<Pixel> {
+        let mut cost = Cost::default();
+        let (surface, t, before) = match given.pixels[index]? {
+            GivenPixel::Empty => {
+                return Some(Pixel { index, known: Known::Empty, coverage: [0.0; 2], hit: None, edge: None, cost });
+            }
+            GivenPixel::Hit { surface, t, before } => (surface, t, before),
+        };
+        let ray = self.task.film.ray(index % self.task.film.width, index / self.task.film.width);
+        let mut meeting = Meeting { surface, t, before: Some(before), reason: None };
+        let wide = |light: &Vec<[f64; 2]>| light[index][1] - light[index][0] > self.task.tolerance.width;
+        if given.lights.iter().any(wide) {
+            let piece = [Piece { surface, t }];
+            let found =
+                first_meeting(&self.surfaces, &ray, &piece, Effort::FINE, &mut self.rays, &mut self.work, &mut cost);
+            // Of the roots in t the first: the very one that is given.
+            meeting = found.filter(|m| m.reason.is_none() && m.before.is_some()).unwrap_or(meeting);
+        }
+        let hit = Some(self.hit(&ray, &meeting));
+        Some(Pixel { index, known: Known::Hit, coverage: [1.0; 2], hit, edge: None, cost })
     }
 
     /// One pixel, of whose frustum `open` is known.
@@ -213,12 +244,14 @@ fn halves(t: Interval) -> [Interval; 2] {
     [Interval::new(t.lo(), mid), Interval::new(mid, t.hi())]
 }
 
-/// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one.
+/// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one. Brackets that are
+/// given, and narrow enough, are not looked for.
 pub(super) fn shadows<'a>(
     task: &Task,
     column: usize,
     row: usize,
     receiver_of: &(dyn Fn(usize) -> Option<&'a Receiver> + 'a),
+    given: Option<&Given>,
 ) -> Vec<Light> {
     let surfaces = task.surfaces();
     let (mut work, mut scratch, mut stack) = (Workspace::default(), shadow::Scratch::default(), Vec::new());
@@ -226,11 +259,23 @@ pub(super) fn shadows<'a>(
     // What a shaft costs is booked on the first pixel below it.
     let mut owed = Cost::default();
     let start = |light| ((column, row, BLOCK), light, whole_beam(&surfaces));
+    let known = |light: usize, index: usize| given.and_then(|g| g.light(light, index));
+    let narrow = |[lo, hi]: &[f64; 2]| hi - lo <= task.tolerance.width;
+    for light in 0..task.lights.len() {
+        for index in indices(task, (column, row, BLOCK)) {
+            if let Some([lo, hi]) = known(light, index).filter(narrow) {
+                out.push(Light { index, light, lo, hi, first_occluded: lo < 1.0, ..Light::default() });
+            }
+        }
+    }
     let mut blocks: Vec<(Block, usize, Vec<Piece>)> = (0..task.lights.len()).rev().map(start).collect();
     while let Some((block, light, mut pieces)) = blocks.pop() {
         let rect = &task.lights[light].rect;
         let hits: Vec<(usize, &Receiver)> =
-            indices(task, block).filter_map(|index| Some((index, receiver_of(index)?))).collect();
+            indices(task, block)
+                .filter(|index| known(light, *index).is_none_or(|bracket| !narrow(&bracket)))
+                .filter_map(|index| Some((index, receiver_of(index)?)))
+                .collect();
         if hits.is_empty() {
             continue;
         }
@@ -276,12 +321,15 @@ pub(super) fn shadows<'a>(
             let mut cost = Cost::default();
             let bracket =
                 visible(&surfaces, receiver, rect, &pieces, task.tolerance, &mut scratch, &mut work, &mut cost);
+            // Both brackets hold, so they meet.
+            let [lo, hi] = known(light, index).unwrap_or([0.0, 1.0]);
+            let (lo, hi) = (lo.max(bracket.lo), hi.min(bracket.hi));
             out.push(Light {
                 index,
                 light,
-                lo: bracket.lo,
-                hi: bracket.hi,
-                reason: bracket.reason,
+                lo,
+                hi,
+                reason: bracket.reason.filter(|_| !narrow(&[lo, hi])),
                 first_occluded: !bracket.first_free,
                 initial: std::mem::take(&mut owed),
                 sub: cost,

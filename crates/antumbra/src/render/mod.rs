@@ -7,6 +7,7 @@ mod by_paper;
 mod by_proof;
 mod develop;
 mod frame;
+mod given;
 mod irradiance;
 mod overlay;
 mod pixel;
@@ -19,6 +20,7 @@ mod stats;
 mod task;
 
 pub use frame::{Frame, LightPlanes};
+pub use given::{Given, GivenPixel, Question};
 pub use overlay::Overlay;
 pub use renderer::Renderer;
 pub use spec::{Error, Method, RenderSpec, RunSpec};

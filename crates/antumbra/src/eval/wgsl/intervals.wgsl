@@ -37,3 +37,19 @@ fn i_abs(x: vec2<f32>) -> vec2<f32> {
 }
 fn i_min(x: vec2<f32>, y: vec2<f32>) -> vec2<f32> { return min(x, y); }
 fn i_max(x: vec2<f32>, y: vec2<f32>) -> vec2<f32> { return max(x, y); }
+// Bounds of m^n for m >= 0, n >= 1.
+fn i_point_power(m: f32, n: u32) -> vec2<f32> {
+    var p = vec2<f32>(m, m);
+    for (var bit = firstLeadingBit(n); bit > 0u; bit--) {
+        p = vec2<f32>(max(down(p.x * p.x), 0.0), up(p.y * p.y));
+        if (n >> (bit - 1u) & 1u) == 1u { p = vec2<f32>(max(down(p.x * m), 0.0), up(p.y * m)); }
+    }
+    return p;
+}
+// x^n, n >= 1, by its ends: monotone on both sides of 0.
+fn i_pow(x: vec2<f32>, n: u32) -> vec2<f32> {
+    let a = i_point_power(abs(x.x), n);
+    let b = i_point_power(abs(x.y), n);
+    if (n & 1u) == 1u { return vec2<f32>(select(-a.y, a.x, x.x >= 0.0), select(-b.x, b.y, x.y >= 0.0)); }
+    return vec2<f32>(select(min(a.x, b.x), 0.0, x.x <= 0.0 && x.y >= 0.0), max(a.y, b.y));
+}

@@ -158,6 +158,9 @@ fn power(out: &mut String, kind: Kind, i: usize, a: usize, n: i32) -> Result<Str
         return Ok(literal(kind, Interval::ONE));
     }
     let n = n.unsigned_abs();
+    if kind == Kind::Interval && n > 2 {
+        return Ok(format!("i_pow(v{a}, {n}u)"));
+    }
     let mut value = format!("v{a}");
     for bit in (0..n.ilog2()).rev() {
         writeln!(out, "    let v{i}_{bit} = {p}_sqr({value});").expect("strings take any text");
