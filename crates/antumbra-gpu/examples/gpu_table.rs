@@ -1,4 +1,4 @@
-//! What a GPU takes for the four scenes of the paper: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats [sizes...]]`.
+//! What a GPU takes for the four scenes of the paper: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats [WxH... [side of the paper's pictures, 0 for none]]]`.
 //! Prints what the probe says, contradictions against the CPU, and milliseconds by the clock of the GPU, medians.
 use antumbra::geom::{Film, Rect};
 use antumbra::paper;
@@ -19,6 +19,7 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let repeats: usize = arguments.first().and_then(|s| s.parse().ok()).unwrap_or(20);
     let size = |s: &String| s.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    let paper: usize = arguments.iter().skip(1).filter_map(|s| s.parse().ok()).next_back().unwrap_or(512);
     let mut sizes: Vec<(usize, usize)> = arguments.iter().skip(1).filter_map(size).collect();
     if sizes.is_empty() {
         sizes = vec![(512, 512), (1920, 1080), (3840, 2160)];
@@ -61,34 +62,50 @@ fn main() {
         println!("| {name} | {} | {} | {open} | {} of {} | {} |", c.empty, c.hits, c.settled, c.lights, c.contradictions.len());
         c.contradictions.iter().take(5).for_each(|text| println!("  {text}"));
     }
+    if paper > 0 {
+        paper_counts(&gpu);
+    }
+    println!("\nMilliseconds on the GPU, medians of {repeats}; evaluations in millions.\n");
+    table(&gpu, &sizes, repeats);
+    if paper > 0 {
+        paper_table(&gpu, paper, repeats.min(5));
+    }
+}
+
+fn paper_counts(gpu: &Gpu) {
     println!("\n| the paper, {COMPARED} x {COMPARED}: GPU / CPU | hits | initial beams occluded | pixels in shadow | evaluations: pixels | initial | sub-beams |");
     println!("|---|---|---|---|---|---|---|");
     for name in SCENES {
         let scene = scene(name);
-        match draw_paper(&gpu, &scene, (COMPARED, COMPARED), false, 1) {
+        match draw_paper(gpu, &scene, (COMPARED, COMPARED), false, 1) {
             Ok((found, _)) => compare_paper(name, scene, &found),
             Err(error) => println!("| {name} | {error} |"),
         }
     }
-    println!("\nMilliseconds on the GPU, medians of {repeats}; evaluations in millions.\n");
+}
+
+fn table(gpu: &Gpu, sizes: &[(usize, usize)], repeats: usize) {
     println!("| scene | size | surfaces | whole light | 8 x 8 | 4 x 4 | sum | wall, with reading back | pixels open % | brackets wider than 1/255 % of hits | divided hits, parts | evaluations: surfaces, light |");
     println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
-    for size in sizes {
+    for &size in sizes {
         for name in SCENES {
             let scene = scene(name);
-            match draw(&gpu, &scene, size, repeats) {
+            match draw(gpu, &scene, size, repeats) {
                 Ok((proved, times, wall)) => row(name, size, &proved, &times, wall),
                 Err(error) => println!("| {name} | {}x{} | {error} |", size.0, size.1),
             }
         }
     }
-    println!("\nThe paper's method at {0} x {0}, milliseconds, medians of {1}.\n", PAPER, repeats.min(5));
+}
+
+fn paper_table(gpu: &Gpu, side: usize, repeats: usize) {
+    println!("\nThe paper's method at {0} x {0}, milliseconds, medians of {1}.\n", side, repeats);
     println!("| scene | grid | pixels | initial beams | sub-beams | shadow pass | always 49 | saved % | evaluations: pixels, initial, sub-beams, always 49 (millions) |");
     println!("|---|---|---|---|---|---|---|---|---|");
     for name in SCENES {
         let scene = scene(name);
-        let drawn = draw_paper(&gpu, &scene, (PAPER, PAPER), false, repeats.min(5));
-        let always = draw_paper(&gpu, &scene, (PAPER, PAPER), true, repeats.min(5));
+        let drawn = draw_paper(gpu, &scene, (side, side), false, repeats);
+        let always = draw_paper(gpu, &scene, (side, side), true, repeats);
         if let (Ok((found, times)), Ok((fixed, fixed_times))) = (drawn, always) {
             let ms = |s: f64| format!("{:.3}", 1e3 * s);
             let [shadow, all] = [times[2] + times[3], fixed_times[2] + fixed_times[3]];
@@ -108,9 +125,6 @@ fn main() {
         }
     }
 }
-
-/// Side of the paper's pictures.
-const PAPER: usize = 512;
 
 /// The paper's method some times, and median seconds of its passes.
 fn draw_paper(gpu: &Gpu, scene: &Scene, (width, height): (usize, usize), always: bool, repeats: usize) -> Result<(Found, Vec<f64>), antumbra_gpu::Error> {

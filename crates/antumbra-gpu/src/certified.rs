@@ -177,7 +177,7 @@ impl<'a> Run<'a> {
             }
             for division in 0..2 {
                 go()?;
-                let groups = [GROUPS, 1, 1];
+                let groups = [if self.gpu.is_software() { GROUPS / 64 } else { GROUPS }, 1, 1];
                 let pass = Pass { pipeline: &self.kernels.cells[division], bind: &self.cells[division], groups };
                 let times = self.gpu.run(&[pass])?;
                 book(&mut proved, 3 * k + 2 + division, times);

@@ -21,11 +21,11 @@ const FORMULAS: [&str; 8] = [
     "-abs(x y) + 1e-30 z",
 ];
 
-/// The adapter; `None`, said loudly, where there is none.
+/// The adapter; `None`, said loudly, where there is none and `ANTUMBRA_GPU_REQUIRED` is not set.
 fn gpu() -> Option<Gpu> {
     match Gpu::open(true) {
         Ok(gpu) => Some(gpu),
-        Err(Error::NoAdapter) => {
+        Err(Error::NoAdapter) if std::env::var_os("ANTUMBRA_GPU_REQUIRED").is_none() => {
             eprintln!("SKIPPED: no adapter here, nothing was run on a GPU");
             None
         }
