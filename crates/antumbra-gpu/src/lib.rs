@@ -5,6 +5,7 @@
 //! rounding and does not trust the compiler of the driver. What 32 bits cannot prove is left open, and the CPU finishes it.
 #![forbid(unsafe_code)]
 
+mod assist;
 mod certified;
 mod compare;
 mod device;
@@ -14,6 +15,7 @@ mod scene;
 #[cfg(test)]
 mod tests;
 
+pub use assist::{Share, assist};
 pub use certified::{Kernels, Pixel, Proved};
 pub use compare::{Comparison, compare};
 pub use device::{Adapter, Error, Gpu, adapters};
