@@ -122,6 +122,14 @@ impl Gpu {
         Err(last)
     }
 
+    /// The most promising adapter, whatever the probe says: for finding out what is wrong with it. Nothing that it claims is proved.
+    ///
+    /// # Errors
+    /// [`Error::NoAdapter`], [`Error::Failed`].
+    pub fn open_untrusted() -> Result<Self, Error> {
+        list().first().map_or(Err(Error::NoAdapter), Self::unproved)
+    }
+
     /// A device of which nothing is known yet.
     fn unproved(adapter: &wgpu::Adapter) -> Result<Self, Error> {
         let failed = |e: &dyn std::fmt::Display| Error::Failed(e.to_string());

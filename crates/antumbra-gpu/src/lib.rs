@@ -14,6 +14,8 @@ pub mod probe;
 mod scene;
 #[cfg(test)]
 mod tests;
+#[cfg(test)]
+mod twin;
 
 pub use assist::{Share, assist};
 pub use certified::{Kernels, Pixel, Proved};

@@ -1,14 +1,11 @@
 //! Tapes as WGSL: straight-line functions over f32 enclosures, for GPUs whose compilers cannot be trusted with floats.
 //!
 //! The arithmetic is text of its own ([`FORMS`], [`INTERVALS`]), with the reasons for every bound beside it; it needs one
-//! function from its user, `fn runtime_zero() -> u32`, which must return 0 in a way that no compiler can see. [`Twin`] is
-//! the same arithmetic in Rust, operation by operation. [`function`] writes a tape as calls of that arithmetic; [`Reach`] proves that
-//! nothing in it overflows, without which nothing holds.
+//! function from its user, `fn runtime_zero() -> u32`, which must return 0 in a way that no compiler can see. [`function`] writes
+//! a tape as calls of that arithmetic; [`Reach`] proves that nothing in it overflows, without which nothing holds.
 mod reach;
-mod twin;
 
 pub use reach::Reach;
-pub use twin::{Twin, TwinSlope};
 
 use crate::expr::{Binary, Unary};
 use crate::tape::{Op, Tape};
@@ -188,7 +185,8 @@ fn literal(kind: Kind, k: Interval) -> String {
 }
 
 /// The number, if the interval holds one only and f32 holds it as a normal number.
-pub(super) fn exact(k: Interval) -> Option<f32> {
+#[must_use]
+pub fn exact(k: Interval) -> Option<f32> {
     let v = k.lo() as f32;
     (k.lo() == k.hi() && f64::from(v) == k.lo() && (v == 0.0 || v.is_normal())).then_some(v)
 }
