@@ -12,7 +12,7 @@ use clap::{Parser, Subcommand};
 
 use crate::{
     failure::EXIT_CODES,
-    values::{self, Assignment, Size, Span},
+    values::{self, Assignment, Device, Size, Span},
 };
 
 /// Pictures of implicit surfaces f(x, y, z) = 0 with soft shadows from area lights.
@@ -115,6 +115,11 @@ pub(crate) struct RenderArgs {
     /// Save what is done so often, for --resume, as FILE.state beside the picture; it goes away when the picture is there
     #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = values::budget, allow_negative_numbers = true)]
     pub(crate) save_every: Duration,
+
+    /// Who does it: cpu; gpu proves what it can, the processor the rest; auto takes a GPU if there is one. All prove what they say; the
+    /// bits of cpu and gpu differ
+    #[arg(long, value_name = "DEVICE", default_value = "cpu", value_parser = values::device)]
+    pub(crate) device: Device,
 
     /// Draw what is known instead of the surface, with a legend: verdict, shadow, cost or width (of the brackets)
     #[arg(long, value_name = "KIND", value_parser = values::overlay)]

@@ -22,7 +22,8 @@ use crate::{
     animation::{self, Film},
     args::{AuditArgs, CompareArgs, GalleryArgs, LookArgs, PaperArgs, RenderArgs, SpecArgs},
     failure::Usage,
-    import, values,
+    import,
+    values::{self, Device},
 };
 
 /// Bytes of formula read from standard input. The heart has its own, smaller limit; this one bounds the memory.
@@ -63,6 +64,7 @@ pub(crate) struct RenderOptions {
     pub(crate) run: RunSpec,
     pub(crate) picture: PathBuf,
     pub(crate) format: Format,
+    pub(crate) device: Device,
     pub(crate) overlay: Option<Overlay>,
     pub(crate) planes: Option<PathBuf>,
     /// What moves, if it is to be many pictures.
@@ -114,6 +116,9 @@ impl RenderOptions {
             .unwrap_or_else(|| PathBuf::from(format!("{}.{}", scene.stem, if film.is_some() { "gif" } else { "png" })));
         let depth = if args.bits == "16" { Depth::Sixteen } else { Depth::Eight };
         let format = if film.is_some() { Format::Png(depth) } else { format_of(&picture, depth)? };
+        if film.is_some() && args.device != Device::Cpu {
+            return Err(Usage("--device belongs to one picture, not to an animation".to_owned()).into());
+        }
         if let Some(film) = &film {
             if args.planes.is_some() || args.json.is_some() {
                 return Err(Usage("--planes and --json belong to one picture, not to an animation".to_owned()).into());
@@ -135,6 +140,7 @@ impl RenderOptions {
             run,
             picture,
             format,
+            device: args.device,
             overlay: args.overlay,
             planes: args.planes,
             film,

@@ -180,6 +180,21 @@ pub(crate) fn method(text: &str) -> Result<Method, String> {
     Method::from_name(text).ok_or_else(|| choices("methods", text, &Method::ALL.map(|(_, name, _)| name)))
 }
 
+/// Who proves a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Device {
+    Cpu,
+    Gpu,
+    Auto,
+}
+
+/// A device by its name.
+pub(crate) fn device(text: &str) -> Result<Device, String> {
+    let all = [("cpu", Device::Cpu), ("gpu", Device::Gpu), ("auto", Device::Auto)];
+    let found = all.iter().find(|(name, _)| *name == text).map(|(_, device)| *device);
+    found.ok_or_else(|| choices("devices", text, &all.map(|(name, _)| name)))
+}
+
 /// A way to resolve penumbrae by its name.
 pub(crate) fn penumbra(text: &str) -> Result<Penumbra, String> {
     Penumbra::from_name(text).ok_or_else(|| choices("orders", text, &Penumbra::ALL.map(|(_, name)| name)))

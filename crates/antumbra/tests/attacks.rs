@@ -1,4 +1,5 @@
 //! What hostile readers found, each as they found it.
+use antumbra::audit::{Audit, AuditSpec};
 use antumbra::eval::Workspace;
 use antumbra::geom::{Beam, Box3, Clip, Rect, Vec3};
 use antumbra::grid::Grid;
@@ -127,4 +128,33 @@ fn false_alarms_are_counted() {
     let lit = |i: &usize| planes.initial_occluded[*i] && planes.visible_hi[*i] == 1.0 && planes.visible_lo[*i] > 0.9961;
     assert!(stats.false_alarms > 0);
     assert_eq!(stats.false_alarms, (0..64 * 64).filter(lit).count() as u64);
+}
+
+/// A clip beyond 10^9 on one axis only: its cells are looked at when a render is saved.
+#[test]
+fn far_clips_can_be_saved() {
+    for far in [2e9, -3e9] {
+        let clip = Box3([Interval::new(far, far + 1e9), Interval::new(-1e8, 1e8), Interval::new(-1e8, 1e8)]);
+        let scene = Arc::new(scene_of(&["(x - 2.5e9)^2 + y^2 + z^2 = 1e16"], clip, Vec3::new(0.0, 0.0, 1.0)));
+        let spec = RenderSpec { width: 2, height: 2, ..RenderSpec::default() };
+        let renderer = Renderer::new(scene, spec, RunSpec::default()).unwrap();
+        assert!(renderer.save(&mut Vec::new()).is_ok());
+    }
+}
+
+/// At a cusp values shrink so slowly that a search in doubles never sees the zero: the audit must not call that a surface missed.
+#[test]
+fn the_audit_does_not_accuse_cusps() {
+    for text in ["sqrt(abs(x + 0.5 z - 0.2)) = 0", "cbrt(x + 0.5 z - 0.2)^2 = 0"] {
+        let scene = Arc::new(Scene::from_formula(text).unwrap());
+        let spec = RenderSpec { width: 12, height: 12, ..RenderSpec::default() };
+        let mut renderer = Renderer::new(Arc::clone(&scene), spec, RunSpec::default()).unwrap();
+        while !renderer.refine(Duration::from_secs(60)) {}
+        let spec = AuditSpec { pixels: 30, seed: 1, light_scale: 1.0, floor: false };
+        let mut audit = Audit::new(&scene, renderer.frame(), spec, RunSpec::default()).unwrap();
+        while !audit.step().unwrap() {}
+        let report = audit.report();
+        assert_eq!(report.violations, Vec::<String>::new(), "{text}");
+        assert!(report.total().unclear > 0, "{text}: {report:?}");
+    }
 }

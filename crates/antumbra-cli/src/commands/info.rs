@@ -4,6 +4,7 @@ use antumbra::{
     render::{Method, RenderSpec, RunSpec},
     scene::{GALLERY, PRESETS},
 };
+use antumbra_gpu::Adapter;
 use anyhow::Result;
 
 use crate::{options::thread_count, output::print};
@@ -15,17 +16,31 @@ pub(super) fn run() -> Result<()> {
     let gallery =
         GALLERY.iter().map(|e| Ok(format!("  {:<15} {}", e.name, e.scene()?.title))).collect::<Result<Vec<_>>>()?;
     print(&format!(
-        "antumbra {}\nprocessor: {}{}\nthreads:   {}\npresets:\n{}\ngallery ({} surfaces):\n{}\nmethods (default: {}):\n{}\n",
+        "antumbra {}\nprocessor: {}{}\nthreads:   {}\nadapters:\n{}\npresets:\n{}\ngallery ({} surfaces):\n{}\nmethods (default: {}):\n{}\n",
         env!("CARGO_PKG_VERSION"),
         std::env::consts::ARCH,
         processor_features(),
         thread_count(&RunSpec::default()),
+        graphics_adapters(),
         presets.join("\n"),
         GALLERY.len(),
         gallery.join("\n"),
         RenderSpec::default().method.name(),
         methods.join("\n"),
     ))
+}
+
+/// Every GPU, and whether its arithmetic can be trusted with a proof.
+fn graphics_adapters() -> String {
+    let line = |a: &Adapter| {
+        let verdict = match &a.probe {
+            Ok(_) => "passed the probe".to_owned(),
+            Err(error) => error.to_string(),
+        };
+        format!("  {} ({}, {}, {}): {verdict}", a.name, a.backend, a.kind, a.driver)
+    };
+    let lines: Vec<String> = antumbra_gpu::adapters().iter().map(line).collect();
+    if lines.is_empty() { "  none".to_owned() } else { lines.join("\n") }
 }
 
 /// The features that the arithmetic can use, each with yes or no.

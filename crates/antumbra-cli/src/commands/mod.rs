@@ -3,6 +3,7 @@
 mod animate;
 mod audit;
 mod compare;
+mod device;
 mod gallery;
 mod info;
 mod manual;

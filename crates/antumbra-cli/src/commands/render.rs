@@ -10,8 +10,8 @@ use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::{
-    End, animate, deadline, frame_bytes, json_sink, json_text, picture_bytes, print_json, pursue, record::FrameRecord,
-    spent,
+    End, animate, deadline, device, frame_bytes, json_sink, json_text, picture_bytes, print_json, pursue,
+    record::FrameRecord, spent,
 };
 use crate::{
     failure::Interrupted,
@@ -55,6 +55,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let mut unfinished = Unfinished::of(&options.picture, options.format, options.save_every);
     let mut renderer = unfinished.begin(&options.scene.scene, &options.spec, options.run, options.resume)?;
     let asking = Asking::first(renderer.stop_flag());
+    device::prepare(options.device, options.spec.method, &mut renderer, options.quiet)?;
     let progress = Progress::new(options.quiet, options.spec.method.name());
     let end =
         pursue(&mut renderer, deadline(options.budget), Some(&progress), &mut |r| unfinished.save_now_and_then(r));

@@ -51,6 +51,8 @@ fn wrong_files() -> Vec<(String, &'static str)> {
     vec![
         ("title = ".to_owned(), "a value is missing after `=`"),
         ("title = Rings".to_owned(), "text stands in quotes, as in title = \"Rings\""),
+        (with("[parameters]\n\"q = 1 #\" = 2"), "a name is made of letters, digits and _"),
+        (with("[camera]\ntarget = [1e6, 0, 0]\nfrom = [1, 0, 0]\nwidth = 1e-16"), "is too small for a target so far"),
         (String::new(), "begin a surface with [[surface]], and give it a formula"),
         ("surface = []".to_owned(), "line 1, surface: there is none; begin one with [[surface]]"),
         ("[[surface]]\noutside = [1, 0, 0]".to_owned(), "missing field `formula`"),

@@ -235,20 +235,30 @@ impl Walk<'_> {
     /// Whether f touches zero in a section: like [`Walk::dip`], with parameters of many digits.
     fn touch(&self, [lo, hi]: [f64; 2], s: &mut Scratch) -> Seen {
         let (mut low, mut high) = (Big::from(lo), Big::from(hi));
-        let mut least = f64::INFINITY;
-        for _ in 0..160 {
+        let (mut least, mut halfway) = (f64::INFINITY, f64::INFINITY);
+        for step in 0..160 {
             let part = high.sub(&low).mul(&GOLDEN.into());
             let (c, e) = (high.sub(&part), low.add(&part));
             let [at_c, at_e] = [&c, &e].map(|t| self.judge.formula.value(&self.ray.at(t), s).rounded().abs());
             least = least.min(at_c).min(at_e);
+            if step == 80 {
+                halfway = least;
+            }
             if at_c <= at_e { high = e } else { low = c }
         }
-        if least <= NOISE * self.scale { Seen::Zero([lo, hi]) } else { Seen::Clear }
+        if least <= NOISE * self.scale {
+            Seen::Zero([lo, hi])
+        } else if shrinks(halfway, least) {
+            Seen::Unclear
+        } else {
+            Seen::Clear
+        }
     }
 
     /// The least value in a section whose values all seem to have one sign.
     fn dip(&self, [mut lo, mut hi]: [f64; 2], sign: f64, s: &mut Scratch) -> Seen {
         let ends = [lo, hi];
+        let mut lesser = Vec::with_capacity(80);
         for _ in 0..80 {
             let (c, e) = (hi - GOLDEN * (hi - lo), lo + GOLDEN * (hi - lo));
             if !(lo < c && c < e && e < hi) {
@@ -261,16 +271,24 @@ impl Walk<'_> {
                     return self.crossing([ends[0], t], [self.value(ends[0], s), value], s);
                 }
             }
+            lesser.push(at_c.abs().min(at_e.abs()));
             if at_c.abs() <= at_e.abs() { hi = e } else { lo = c }
         }
+        let halfway = lesser.get(lesser.len() / 2).copied().unwrap_or(f64::INFINITY);
         let least = self.precise(0.5 * (lo + hi), s).abs();
         // Parameters are doubles here: a touching zero is met to the square of their spacing.
         if least <= 1e-28 * self.scale {
             Seen::Zero([lo, hi])
-        } else if least <= 1e-12 * self.scale {
+        } else if least <= 1e-12 * self.scale || shrinks(halfway, least) {
             Seen::Unclear
         } else {
             Seen::Clear
         }
     }
+}
+
+/// Whether values still shrink with the section around them: towards a cusp of 0, such as that of `sqrt(abs(x))`, which is met only
+/// as nearly as parameters are dense. Around a least value above 0 they settle.
+fn shrinks(halfway: f64, least: f64) -> bool {
+    halfway.is_nan() || least < 0.9 * halfway
 }

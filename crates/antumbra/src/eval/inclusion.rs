@@ -66,6 +66,11 @@ pub trait Inclusion: Send + Sync {
         false
     }
 
+    /// The tape that computes this function, if there is one: what a GPU can be told.
+    fn as_tape(&self) -> Option<&Tape> {
+        None
+    }
+
     /// About how many operations an evaluation takes: searches that may be long are cut short by it.
     fn operations(&self) -> usize {
         1
@@ -225,6 +230,10 @@ impl Inclusion for Tape {
 
     fn continuous_everywhere(&self) -> bool {
         self.is_continuous_everywhere()
+    }
+
+    fn as_tape(&self) -> Option<&Tape> {
+        Some(self)
     }
 
     fn operations(&self) -> usize {

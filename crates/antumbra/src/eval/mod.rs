@@ -20,6 +20,7 @@ mod jet;
 mod machine;
 mod point;
 mod regions;
+pub mod wgsl;
 
 pub use batch::{FanPiece, RayPiece};
 pub use gradient::Gradient;

@@ -96,6 +96,12 @@ pub(crate) fn is_number(text: &str) -> bool {
     words.next() == Some(Ok(Word::Number)) && words.span() == (0..text.len())
 }
 
+/// Whether a text can be a name, and nothing else.
+pub(crate) fn is_name(text: &str) -> bool {
+    let mut words = Word::lexer(text);
+    words.next() == Some(Ok(Word::Name)) && words.span() == (0..text.len())
+}
+
 /// The exact value of a decimal literal.
 pub(crate) fn number(source: &str, span: Range<usize>) -> Result<BigRational, Error> {
     let text = &source[span.clone()];

@@ -66,7 +66,7 @@ pub(crate) use exact::cost as cost_of_constant;
 pub(crate) use facts::{Facts, given as facts_given};
 pub use formula::Formula;
 pub use graph::{Graph, Node, NodeId};
-pub(crate) use lexer::{is_number, number};
+pub(crate) use lexer::{is_name, is_number, number};
 pub use op::{Axis, Binary, Unary};
 pub use surface::{Surface, ZeroStep};
 

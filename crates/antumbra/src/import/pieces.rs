@@ -1,5 +1,5 @@
 //! A text put together from pieces of a file: where its errors are in the file.
-use crate::expr::{Error, ErrorKind, Formula};
+use crate::expr::{Error, ErrorKind, Formula, is_name};
 
 /// A text of pieces, each with its place in the file.
 pub(super) struct Pieces<'a> {
@@ -25,9 +25,7 @@ impl<'a> Pieces<'a> {
     /// Appends `name parameters = (value); `. The name must be one, and the value an expression of its own: no comment may hide
     /// what follows, no bracket or semicolon may end the definition early.
     pub(super) fn define(&mut self, name: (&str, usize), parameters: &str, value: &[(&str, usize)]) {
-        let trimmed = name.0.trim();
-        let starts = trimmed.starts_with(|c: char| c.is_alphabetic() || c == '_');
-        if !starts || !trimmed.chars().all(|c| c.is_alphanumeric() || c == '_') {
+        if !is_name(name.0.trim()) {
             self.refuse(
                 name.1..name.1 + name.0.len(),
                 ErrorKind::Statement,

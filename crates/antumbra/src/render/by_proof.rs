@@ -1,4 +1,5 @@
 //! Shadows by the certified method: blocks of hits that are divided until everything is proved or counted.
+use super::given::Given;
 use super::pixel::Light;
 use super::task::Task;
 use crate::eval::Workspace;
@@ -17,12 +18,14 @@ pub(super) fn indices(task: &Task, (column, row, side): Block) -> impl Iterator<
     (row..(row + side).min(height)).flat_map(move |row| columns.clone().map(move |column| row * width + column))
 }
 
-/// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one.
+/// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one. Brackets that are
+/// given, and narrow enough, are not looked for.
 pub(super) fn shadows<'a>(
     task: &Task,
     column: usize,
     row: usize,
     receiver_of: &(dyn Fn(usize) -> Option<&'a Receiver> + 'a),
+    given: Option<&Given>,
 ) -> Vec<Light> {
     let surfaces = task.surfaces();
     let (mut work, mut scratch, mut stack) = (Workspace::default(), shadow::Scratch::default(), Vec::new());
@@ -30,11 +33,22 @@ pub(super) fn shadows<'a>(
     // What a shaft costs is booked on the first pixel below it.
     let mut owed = Cost::default();
     let start = |light| ((column, row, BLOCK), light, whole_beam(&surfaces));
+    let known = |light: usize, index: usize| given.and_then(|g| g.light(light, index));
+    let narrow = |[lo, hi]: &[f64; 2]| hi - lo <= task.tolerance.width;
+    for light in 0..task.lights.len() {
+        for index in indices(task, (column, row, BLOCK)) {
+            if let Some([lo, hi]) = known(light, index).filter(narrow) {
+                out.push(Light { index, light, lo, hi, first_occluded: lo < 1.0, ..Light::default() });
+            }
+        }
+    }
     let mut blocks: Vec<(Block, usize, Vec<Piece>)> = (0..task.lights.len()).rev().map(start).collect();
     while let Some((block, light, mut pieces)) = blocks.pop() {
         let rect = &task.lights[light].rect;
-        let hits: Vec<(usize, &Receiver)> =
-            indices(task, block).filter_map(|index| Some((index, receiver_of(index)?))).collect();
+        let hits: Vec<(usize, &Receiver)> = indices(task, block)
+            .filter(|index| known(light, *index).is_none_or(|bracket| !narrow(&bracket)))
+            .filter_map(|index| Some((index, receiver_of(index)?)))
+            .collect();
         if hits.is_empty() {
             continue;
         }
@@ -80,12 +94,15 @@ pub(super) fn shadows<'a>(
             let mut cost = Cost::default();
             let bracket =
                 visible(&surfaces, receiver, rect, &pieces, task.tolerance, &mut scratch, &mut work, &mut cost);
+            // Both brackets hold, so they meet.
+            let [lo, hi] = known(light, index).unwrap_or([0.0, 1.0]);
+            let (lo, hi) = (lo.max(bracket.lo), hi.min(bracket.hi));
             out.push(Light {
                 index,
                 light,
-                lo: bracket.lo,
-                hi: bracket.hi,
-                reason: bracket.reason,
+                lo,
+                hi,
+                reason: bracket.reason.filter(|_| !narrow(&[lo, hi])),
                 first_occluded: !bracket.first_free,
                 initial: std::mem::take(&mut owed),
                 sub: cost,

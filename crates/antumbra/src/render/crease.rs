@@ -2,8 +2,9 @@
 //! Pixels that are proved hit show such an edge as a stair; a grid of rays in each gives its colour. Nothing here is
 //! certified, and nothing changes what is.
 use super::pixel::{Edge, Hit};
+use super::spare::Scratch;
 use super::task::{Asked, Task};
-use super::visibility::{EDGE_RAYS, Scratch};
+use super::visibility::EDGE_RAYS;
 use crate::geom::Beam;
 use crate::trace::{Cost, Frustum, Known, Meeting, Ray, first_meetings, narrow};
 

@@ -3,9 +3,11 @@ use super::book::Book;
 use super::by_paper;
 use super::by_proof::{self, BLOCK};
 use super::crease;
+use super::given::{Given, Question};
+use super::spare::Spare;
 use super::state::{self, StateError, Stopped};
 use super::task::Task;
-use super::visibility::{self, Spare};
+use super::visibility;
 use super::{Error, Frame, Method, RenderSpec, RunSpec, Stats};
 use crate::grid::Grid;
 use crate::scene::Scene;
@@ -27,6 +29,7 @@ pub struct Renderer {
     pool: rayon::ThreadPool,
     grids: Vec<Grid>,
     book: Book,
+    given: Option<Given>,
     stage: Stage,
     next_tile: usize,
     stop: Arc<AtomicBool>,
@@ -55,7 +58,8 @@ impl Renderer {
         let task = Task::new(scene, &spec)?;
         let book = Book::new(frame, spec.method, pool.current_num_threads());
         let (stage, stop) = (Stage::Grid, Arc::default());
-        Ok(Self { task, spec, pool, grids: Vec::new(), book, stage, next_tile: 0, stop, spare: Spare::default() })
+        let spare = Spare::default();
+        Ok(Self { task, spec, pool, grids: Vec::new(), book, given: None, stage, next_tile: 0, stop, spare })
     }
 
     /// Writes everything that is known, so that [`Renderer::resume`] can go on with it: some 50 to 300 bytes for each
@@ -102,6 +106,30 @@ impl Renderer {
     #[must_use]
     pub fn stop_flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.stop)
+    }
+
+    /// What the certified method is to prove: for those who can prove some of it faster.
+    #[must_use]
+    pub fn question(&self) -> Question<'_> {
+        Question {
+            surfaces: self.task.surfaces(),
+            film: self.task.film,
+            lights: self.task.lights.iter().map(|l| l.rect).collect(),
+            tolerance: self.task.tolerance.width,
+        }
+    }
+
+    /// Takes over what has been proved of the [`question`](Self::question); only the rest will be looked for. It is not part of what
+    /// is saved. Tells whether it was of use: only the certified method has use for it, only before it begins, and only if it speaks of
+    /// this picture.
+    pub fn give(&mut self, given: Given) -> bool {
+        let pixels = self.task.film.width * self.task.film.height;
+        let wanted = self.stage == Stage::Grid && self.task.method == Method::Certified;
+        let useful = wanted && given.fits(pixels, self.task.lights.len());
+        if useful {
+            self.given = Some(given);
+        }
+        useful
     }
 
     /// The scene that is drawn.
@@ -286,7 +314,7 @@ impl Renderer {
             Method::Certified => {
                 let (column, row) = this.corner(turn);
                 let mut scratch = this.spare.take();
-                let found = visibility::primary(&this.task, column, row, &mut scratch);
+                let found = visibility::primary(&this.task, column, row, this.given.as_ref(), &mut scratch);
                 this.spare.give(scratch);
                 found
             }
@@ -312,7 +340,7 @@ impl Renderer {
             Method::Certified => {
                 let (column, row) = this.corner(turn);
                 let receiver = |index| this.book.hit(index).and_then(|h| h.receiver.as_ref());
-                by_proof::shadows(&this.task, column, row, &receiver)
+                by_proof::shadows(&this.task, column, row, &receiver, this.given.as_ref())
             }
             Method::Paper(method) => {
                 let hits = this.pixels(turn).filter_map(|index| Some((index, this.book.hit(index)?.point)));

@@ -113,7 +113,7 @@ fn program() -> String {
 fn samples(object: &Object) -> Vec<Interval> {
     let (bounds, mut work) = (object.clip().bounds(), Workspace::default());
     let third = |axis: usize, k: usize| {
-        let (lo, hi) = (bounds[axis].lo().max(-1e9), bounds[axis].hi().min(1e9));
+        let [lo, hi] = [bounds[axis].lo(), bounds[axis].hi()].map(|x| x.clamp(-1e9, 1e9));
         let at = |k: usize| (lo + (hi - lo) * (k as f64 / 3.0)).clamp(lo, hi);
         Interval::try_new(at(k), at(k + 1)).unwrap_or(Interval::ZERO)
     };

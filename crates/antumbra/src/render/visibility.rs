@@ -4,18 +4,17 @@
 //! evaluations come in batches. No search knows of its neighbours, hence all results and costs are those of one pixel
 //! after another.
 use super::by_proof::{BLOCK, Block, indices};
+use super::given::{Given, GivenPixel};
 use super::pixel::{Edge, Hit, Known, Pixel};
-use super::task::{Asked, HitScratch, Task};
-use crate::eval::Workspace;
+use super::spare::Scratch;
+use super::task::{Asked, Task};
 use crate::geom::{Beam, Fan};
 use crate::shadow::Receiver;
 use crate::trace::{
-    self, Cost, Effort, Frusta, Frustum, Known as Open, Meeting, Piece, Ray, Surface, first_meeting, first_meetings,
-    narrow,
+    Cost, Effort, Frustum, Known as Open, Meeting, Piece, Ray, Surface, first_meeting, first_meetings, narrow,
 };
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
-use std::sync::Mutex;
 
 /// Blocks up to this side whose frustum is covered by one simple piece are not divided further.
 const SIMPLE: usize = 4;
@@ -63,52 +62,42 @@ enum Stage {
     Edge,
 }
 
-/// Scratch memory of one thread: keep it, it only grows.
-#[derive(Debug, Default)]
-pub(super) struct Scratch {
-    pub(super) work: Workspace,
-    pub(super) frusta: Frusta,
-    pub(super) rays: trace::Scratch,
-    pub(super) hits: HitScratch,
-}
-
-/// Scratch memory that no thread has at the moment.
-#[derive(Debug, Default)]
-pub(super) struct Spare(Mutex<Vec<Scratch>>);
-
-impl Spare {
-    /// Some memory, new if there is none.
-    pub(super) fn take(&self) -> Scratch {
-        self.0.lock().ok().and_then(|mut spare| spare.pop()).unwrap_or_default()
-    }
-
-    /// Memory for the next one.
-    pub(super) fn give(&self, scratch: Scratch) {
-        // Poisoned by a panic elsewhere: then it is dropped.
-        if let Ok(mut spare) = self.0.lock() {
-            spare.push(scratch);
-        }
-    }
-}
-
 struct Primary<'a> {
     task: &'a Task,
     surfaces: Vec<Surface<'a>>,
+    given: Option<&'a Given>,
     scratch: &'a mut Scratch,
 }
 
 /// A ray and what it meets; the number is the asker's.
 type Met = (usize, Beam, Meeting);
 
-/// Primary visibility of the block at `(column, row)`, clipped to the picture.
-pub(super) fn primary(task: &Task, column: usize, row: usize, scratch: &mut Scratch) -> Vec<Pixel> {
-    let mut pass = Primary { task, surfaces: task.surfaces(), scratch };
-    let nodes = pass.divide((column, row, BLOCK));
+/// Primary visibility of the block at `(column, row)`, clipped to the picture; what is given is not looked for.
+pub(super) fn primary(
+    task: &Task,
+    column: usize,
+    row: usize,
+    given: Option<&Given>,
+    scratch: &mut Scratch,
+) -> Vec<Pixel> {
+    let mut pass = Primary { task, surfaces: task.surfaces(), given, scratch };
+    let whole = (column, row, BLOCK);
+    let mut out: Vec<Pixel> = indices(task, whole).filter_map(|index| pass.taken(index)).collect();
+    if pass.all_given(whole) {
+        return out;
+    }
+    let nodes = pass.divide(whole);
     let mut sights = pass.centres(&nodes);
     pass.coverages(&mut sights);
     pass.corners(&mut sights);
     pass.edges(&mut sights);
-    in_order(task, &nodes, sights)
+    out.extend(in_order(task, &nodes, sights).into_iter().filter(|pixel| !is_given(given, pixel.index)));
+    out
+}
+
+/// Whether all of a pixel is given.
+fn is_given(given: Option<&Given>, index: usize) -> bool {
+    given.is_some_and(|g| g.pixels[index].is_some())
 }
 
 /// All pixels, a block's quarter after the other. What a frustum costs is booked on the first pixel below it.
@@ -130,7 +119,9 @@ fn in_order(task: &Task, nodes: &[Node], sights: Vec<Sight<'_>>) -> Vec<Pixel> {
         stack.extend(node.children.clone().rev());
         if node.children.is_empty() {
             for index in indices(task, node.block) {
-                let mut pixel = found[slot(index)].take().unwrap_or_else(|| empty(index));
+                // A pixel that nobody looked at is empty only if its frustum is.
+                let none = || node.open.certainly_empty().then(|| empty(index));
+                let Some(mut pixel) = found[slot(index)].take().or_else(none) else { continue };
                 pixel.cost += std::mem::take(&mut owed);
                 out.push(pixel);
             }
@@ -147,6 +138,30 @@ impl Primary<'_> {
     fn fan(&self, (column, row, side): Block) -> Fan {
         let film = &self.task.film;
         film.fan(column..(column + side).min(film.width), row..(row + side).min(film.height))
+    }
+
+    fn all_given(&self, block: Block) -> bool {
+        self.given.is_some() && indices(self.task, block).all(|index| is_given(self.given, index))
+    }
+
+    /// A pixel of which all is given. A hit whose light is not is enclosed as narrowly as shadows want it.
+    fn taken(&mut self, index: usize) -> Option<Pixel> {
+        let given = self.given?;
+        let (surface, t, before) = match given.pixels[index]? {
+            GivenPixel::Empty => return Some(empty(index)),
+            GivenPixel::Hit { surface, t, before } => (surface, t, before),
+        };
+        let mut cost = Cost::default();
+        let beam = self.task.film.ray(index % self.task.film.width, index / self.task.film.width);
+        let mut meeting = Meeting { surface, t, before: Some(before), reason: None };
+        let wide = |light: &Vec<[f64; 2]>| light[index][1] - light[index][0] > self.task.tolerance.width;
+        if given.lights.iter().any(wide) {
+            let found = self.meet_finely(&Ray { beam, open: &[Piece { surface, t }] }, &mut cost);
+            // Of the roots in t the first: the very one that is given.
+            meeting = found.filter(|m| m.reason.is_none() && m.before.is_some()).unwrap_or(meeting);
+        }
+        let hit = Some(self.hit(&beam, &meeting));
+        Some(Pixel { known: Known::Hit, coverage: [1.0; 2], hit, cost, ..empty(index) })
     }
 
     /// Divides a block until its parts are empty, simple, or pixels.
@@ -183,7 +198,7 @@ impl Primary<'_> {
                 let (half, first) = (side / 2, nodes.len());
                 for (down, right) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
                     let child = (column + right * half, row + down * half, half);
-                    if child.0 < self.task.film.width && child.1 < self.task.film.height {
+                    if child.0 < self.task.film.width && child.1 < self.task.film.height && !self.all_given(child) {
                         nodes.push(node(child));
                         parents.push(k);
                     }
@@ -199,7 +214,7 @@ impl Primary<'_> {
     fn centres<'n>(&mut self, nodes: &'n [Node]) -> Vec<Sight<'n>> {
         let mut sights: Vec<Sight<'n>> = Vec::with_capacity(BLOCK * BLOCK);
         for node in nodes.iter().filter(|n| n.children.is_empty() && !n.open.certainly_empty()) {
-            for index in indices(self.task, node.block) {
+            for index in indices(self.task, node.block).filter(|index| !is_given(self.given, *index)) {
                 let (column, row) = (index % self.task.film.width, index / self.task.film.width);
                 let ray = self.task.film.ray(column, row);
                 let (pixel, thin, stage) = (empty(index), None, Stage::Settled);

@@ -17,6 +17,8 @@ pub struct View {
 
 /// Distance of an orthographic camera, in units of what it sees.
 const FAR: f64 = (1 << 14) as f64;
+/// Degrees.
+const LEAST_ANGLE: f64 = 1e-4;
 
 impl View {
     /// The camera for a picture of `width / height = aspect`.
@@ -67,13 +69,24 @@ impl CameraEntry {
             (_, Some(width)) if !(width > 0.0 && width <= 1e100) => {
                 Err(value_error("camera.width", "must be greater than 0 (and at most 1e100)"))
             }
-            (Some(angle), _) if !(1e-4..=170.0).contains(&angle) => {
+            (Some(angle), _) if !(LEAST_ANGLE..=170.0).contains(&angle) => {
                 Err(value_error("camera.angle", format!("must be from 0.0001 to 170 degrees, not {angle}")))
             }
             (_, width) if parallel => {
-                Ok(View::orthographic(eye - target, target, width.unwrap_or_else(|| stage.width(target))))
+                let view = View::orthographic(eye - target, target, width.unwrap_or_else(|| stage.width(target)));
+                // Beside a far target a small width is lost, and the direction with it.
+                let (distance, meant) =
+                    ((view.eye - target).length(), FAR * width.unwrap_or_else(|| stage.width(target)));
+                if (distance - meant).abs() <= 1e-6 * meant {
+                    Ok(view)
+                } else {
+                    Err(value_error("camera.width", "is too small for a target so far from the origin"))
+                }
             }
-            (angle, _) => Ok(View { eye, target, fov_deg: angle.unwrap_or_else(|| stage.angle(eye, target)) }),
+            (angle, _) => {
+                let angle = angle.unwrap_or_else(|| stage.angle(eye, target).max(LEAST_ANGLE));
+                Ok(View { eye, target, fov_deg: angle })
+            }
         }
     }
 }

@@ -2,6 +2,7 @@
 use super::entry::{CameraEntry, ClipEntry, ColorBy, FloorEntry, LightEntry, SurfaceEntry};
 use super::place::advice;
 use super::{About, Backdrop, Colors, Exposure, Light, Look, Object, Output, Scene, Sky, View, framing};
+use crate::expr::is_name;
 use crate::geom::Clip;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
@@ -235,6 +236,9 @@ impl SceneFile {
     fn check_parameters(&self) -> Result<(), FileError> {
         for (name, parameter) in &self.parameters {
             let key = format!("parameters.{name}");
+            if !is_name(name) {
+                return Err(value_error(key, "a name is made of letters, digits and _, and begins with no digit"));
+            }
             finite(&key, &[parameter.value()])?;
             if let Parameter::Ranged(Ranged { value, min, max }) = *parameter {
                 finite(&key, &[min, max])?;

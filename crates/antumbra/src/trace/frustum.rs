@@ -10,7 +10,7 @@ use antumbra_interval::affine::Affine;
 use smallvec::{SmallVec, smallvec};
 
 /// What is known of all rays of a frustum. Valid for every part of the frustum.
-#[derive(Clone, Debug, Default, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Known {
     /// The pieces that are open; outside of them no ray meets a surface before `cover`. Ascending per surface.
     pub open: SmallVec<[Piece; 3]>,
@@ -19,6 +19,14 @@ pub struct Known {
     /// Per surface: a sign of f, and a parameter before its first open piece at which f has it on all rays, all of them
     /// inside the surface's region; where proved.
     front: SmallVec<[Option<(Sign, f64)>; 2]>,
+}
+
+/// Says nothing: neither empty nor covered. A place to write to.
+impl Default for Known {
+    fn default() -> Self {
+        let anywhere = Piece { surface: 0, t: Interval::ENTIRE };
+        Self { open: smallvec![anywhere], cover: f64::INFINITY, front: SmallVec::new() }
+    }
 }
 
 impl Known {

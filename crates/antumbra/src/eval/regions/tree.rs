@@ -146,6 +146,10 @@ impl Node {
 }
 
 impl Inclusion for Regions {
+    fn as_tape(&self) -> Option<&Tape> {
+        Some(&self.whole)
+    }
+
     fn range(&self, region: &Box3, work: &mut Workspace) -> Interval {
         self.tape(region).range(region, work)
     }

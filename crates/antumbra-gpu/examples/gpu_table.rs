@@ -1,0 +1,273 @@
+//! What a GPU takes for the four scenes of the paper: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats [WxH... [side of the paper's pictures, 0 for none]]]`.
+//! With `--despite` it goes on where the probe fails, for diagnosis. Prints what the probe says, contradictions against the CPU, and milliseconds by the clock of the GPU, medians.
+use antumbra::geom::{Film, Rect};
+use antumbra::paper;
+use antumbra::render::{Method, RenderSpec, Renderer, RunSpec};
+use antumbra::scene::{Scene, named};
+use antumbra::trace::Surface;
+use antumbra_gpu::{Found, Gpu, Kernels, Paper, Pixel, Proved, adapters, compare, probe};
+use std::sync::Arc;
+use std::sync::atomic::AtomicBool;
+use std::time::{Duration, Instant};
+
+const SCENES: [&str; 4] = ["orthocircle", "chubs", "mcmullen", "kusner"];
+const TOLERANCE: f64 = 1.0 / 255.0;
+/// Side of the pictures that are compared with the CPU's.
+const COMPARED: usize = 96;
+
+fn main() {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    let repeats: usize = arguments.first().and_then(|s| s.parse().ok()).unwrap_or(20);
+    let size = |s: &String| s.split_once('x').and_then(|(w, h)| Some((w.parse().ok()?, h.parse().ok()?)));
+    let paper: usize = arguments.iter().skip(1).filter_map(|s| s.parse().ok()).next_back().unwrap_or(512);
+    let mut sizes: Vec<(usize, usize)> = arguments.iter().skip(1).filter_map(size).collect();
+    if sizes.is_empty() {
+        sizes = vec![(512, 512), (1920, 1080), (3840, 2160)];
+    }
+    for adapter in adapters() {
+        println!(
+            "adapter: {} ({}, {}, driver {}), f64 {}",
+            adapter.name, adapter.backend, adapter.kind, adapter.driver, adapter.double
+        );
+        match adapter.probe {
+            Ok(report) => {
+                println!("  probe passed, {} cases; subnormals kept: {}", report.cases, report.subnormals);
+                for (what, count) in probe::BARE.iter().zip(report.rewritten) {
+                    println!("  without a fence, {what} differs in {count}");
+                }
+            }
+            Err(error) => println!("  {error}"),
+        }
+    }
+    let despite = arguments.iter().any(|s| s == "--despite");
+    let opened = Gpu::open(true).or_else(|error| {
+        if !despite {
+            return Err(error);
+        }
+        println!("\nTHE PROBE FAILED: going on for diagnosis only, nothing below is proved.");
+        Gpu::open_untrusted()
+    });
+    let gpu = match opened {
+        Ok(gpu) => gpu,
+        Err(error) => {
+            println!("no GPU: {error}");
+            return;
+        }
+    };
+    println!("\n| scene, {COMPARED} x {COMPARED} | empty | hits | left to the CPU | lights settled | contradictions |");
+    println!("|---|---|---|---|---|---|");
+    for name in SCENES {
+        let scene = scene(name);
+        let proved = match draw(&gpu, &scene, (COMPARED, COMPARED), 1) {
+            Ok((proved, ..)) => proved,
+            Err(error) => {
+                println!("| {name} | {error} |");
+                continue;
+            }
+        };
+        let spec = RenderSpec { width: COMPARED, height: COMPARED, ..RenderSpec::default() };
+        let mut cpu = Renderer::new(Arc::new(scene), spec, RunSpec::default()).expect("a picture of this size fits");
+        while !cpu.refine(Duration::from_secs(3600)) {}
+        let c = compare(&proved, cpu.frame(), TOLERANCE);
+        let open = c.pixels - c.empty - c.hits;
+        println!(
+            "| {name} | {} | {} | {open} | {} of {} | {} |",
+            c.empty,
+            c.hits,
+            c.settled,
+            c.lights,
+            c.contradictions.len()
+        );
+        c.contradictions.iter().take(5).for_each(|text| println!("  {text}"));
+    }
+    if paper > 0 {
+        paper_counts(&gpu);
+    }
+    println!("\nMilliseconds on the GPU, medians of {repeats}; evaluations in millions.\n");
+    table(&gpu, &sizes, repeats);
+    if paper > 0 {
+        paper_table(&gpu, paper, repeats.min(5));
+    }
+}
+
+fn paper_counts(gpu: &Gpu) {
+    println!(
+        "\n| the paper, {COMPARED} x {COMPARED}: GPU / CPU | hits | initial beams occluded | pixels in shadow | evaluations: pixels | initial | sub-beams |"
+    );
+    println!("|---|---|---|---|---|---|---|");
+    for name in SCENES {
+        let scene = scene(name);
+        match draw_paper(gpu, &scene, (COMPARED, COMPARED), false, 1) {
+            Ok((found, _)) => compare_paper(name, scene, &found),
+            Err(error) => println!("| {name} | {error} |"),
+        }
+    }
+}
+
+fn table(gpu: &Gpu, sizes: &[(usize, usize)], repeats: usize) {
+    println!(
+        "| scene | size | surfaces | whole light | 8 x 8 | 4 x 4 | sum | wall, with reading back | pixels open % | brackets wider than 1/255 % of hits | divided hits, parts | evaluations: surfaces, light |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
+    for &size in sizes {
+        for name in SCENES {
+            let scene = scene(name);
+            match draw(gpu, &scene, size, repeats) {
+                Ok((proved, times, wall)) => row(name, size, &proved, &times, wall),
+                Err(error) => println!("| {name} | {}x{} | {error} |", size.0, size.1),
+            }
+        }
+    }
+}
+
+fn paper_table(gpu: &Gpu, side: usize, repeats: usize) {
+    println!("\nThe paper's method at {0} x {0}, milliseconds, medians of {1}.\n", side, repeats);
+    println!(
+        "| scene | grid | pixels | initial beams | sub-beams | shadow pass | always 49 | saved % | evaluations: pixels, initial, sub-beams, always 49 (millions) |"
+    );
+    println!("|---|---|---|---|---|---|---|---|---|");
+    for name in SCENES {
+        let scene = scene(name);
+        let drawn = draw_paper(gpu, &scene, (side, side), false, repeats);
+        let always = draw_paper(gpu, &scene, (side, side), true, repeats);
+        if let (Ok((found, times)), Ok((fixed, fixed_times))) = (drawn, always) {
+            let ms = |s: f64| format!("{:.3}", 1e3 * s);
+            let [shadow, all] = [times[2] + times[3], fixed_times[2] + fixed_times[3]];
+            let each: Vec<String> = times.iter().map(|t| ms(*t)).collect();
+            let millions = |n: u64| n as f64 * 1e-6;
+            println!(
+                "| {name} | {} | {} | {} | {:.1} | {:.1}, {:.1}, {:.1}, {:.1} |",
+                each.join(" | "),
+                ms(shadow),
+                ms(all),
+                100.0 * (1.0 - shadow / all),
+                millions(found.evaluations[0]),
+                millions(found.evaluations[1]),
+                millions(found.evaluations[2]),
+                millions(fixed.evaluations[2]),
+            );
+        }
+    }
+}
+
+/// The paper's method some times, and median seconds of its passes.
+fn draw_paper(
+    gpu: &Gpu,
+    scene: &Scene,
+    (width, height): (usize, usize),
+    always: bool,
+    repeats: usize,
+) -> Result<(Found, Vec<f64>), antumbra_gpu::Error> {
+    let surfaces = surfaces(scene);
+    let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
+    let usual = RenderSpec::default();
+    let settings = paper::Settings {
+        sub_beams: usual.sub_beams,
+        offset: RenderSpec::OFFSET * scene.scale(),
+        bisection: usual.bisection,
+        seed: usual.seed,
+    };
+    let kernels = Paper::new(gpu, &surfaces, &film, &scene.lights[0].rect, &settings, usual.grid, always)?;
+    let stop = AtomicBool::new(false);
+    let mut times: Vec<Vec<f64>> = Vec::new();
+    let mut found = kernels.run(gpu, &stop)?;
+    for _ in 1..repeats {
+        found = kernels.run(gpu, &stop)?;
+        times.push(found.seconds.clone());
+    }
+    let medians = (0..found.seconds.len()).map(|k| median(times.iter().map(|t| t[k]).collect())).collect();
+    Ok((found, medians))
+}
+
+fn compare_paper(name: &str, scene: Scene, found: &Found) {
+    let method = Method::Paper(paper::Method::Initial);
+    let spec = RenderSpec { width: COMPARED, height: COMPARED, method, ..RenderSpec::default() };
+    let mut cpu = Renderer::new(Arc::new(scene), spec, RunSpec::default()).expect("a picture of this size fits");
+    while !cpu.refine(Duration::from_secs(3600)) {}
+    let (stats, planes) = (cpu.stats(), &cpu.frame().lights[0]);
+    let hits = found.hits.iter().flatten().count();
+    let shadow = found.blocked.iter().filter(|b| **b > 0).count();
+    let shadow_cpu = planes.visible_lo.iter().filter(|v| **v < 1.0).count();
+    println!(
+        "| {name} | {hits} / {} | {} / {} | {shadow} / {shadow_cpu} | {} / {} | {} | {} (both {}) |",
+        stats.hits,
+        found.initial_occluded,
+        stats.initial_occluded,
+        found.evaluations[0],
+        stats.primary_evaluations,
+        found.evaluations[1],
+        found.evaluations[2],
+        stats.shadow_evaluations,
+    );
+}
+
+fn surfaces(scene: &Scene) -> Vec<Surface<'_>> {
+    let of = |o| -> Surface<'_> {
+        let o: &antumbra::scene::Object = o;
+        Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() }
+    };
+    scene.objects.iter().map(of).collect()
+}
+
+fn scene(name: &str) -> Scene {
+    named(name).expect("it is a preset").expect("presets are right")
+}
+
+type Drawn = (Proved, Vec<f64>, f64);
+
+/// Draws it some times: what was proved, median seconds of each pass, and of the whole by the clock on the wall.
+fn draw(
+    gpu: &Gpu,
+    scene: &Scene,
+    (width, height): (usize, usize),
+    repeats: usize,
+) -> Result<Drawn, antumbra_gpu::Error> {
+    let surfaces = surfaces(scene);
+    let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
+    let lights: Vec<Rect> = scene.lights.iter().map(|l| l.rect).collect();
+    let begin = Instant::now();
+    let kernels = Kernels::new(gpu, &surfaces, &film, &lights, TOLERANCE)?;
+    if repeats > 1 {
+        eprintln!("{}: compiled in {:.2} s", scene.name, begin.elapsed().as_secs_f64());
+    }
+    let stop = AtomicBool::new(false);
+    let mut times: Vec<Vec<f64>> = Vec::new();
+    let mut walls = Vec::new();
+    let mut proved = kernels.prove(gpu, &stop)?;
+    for _ in 1..repeats {
+        let begin = Instant::now();
+        proved = kernels.prove(gpu, &stop)?;
+        walls.push(begin.elapsed().as_secs_f64());
+        times.push(proved.seconds.clone());
+    }
+    let passes = proved.seconds.len();
+    let medians = (0..passes).map(|k| median(times.iter().map(|t| t[k]).collect())).collect();
+    Ok((proved, medians, median(walls)))
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+fn row(name: &str, (width, height): (usize, usize), proved: &Proved, times: &[f64], wall: f64) {
+    let ms = |s: f64| format!("{:.3}", 1e3 * s);
+    let each: Vec<String> = (0..4).map(|k| times.get(k).map_or("-".to_owned(), |s| ms(*s))).collect();
+    let open = proved.pixels.iter().filter(|p| matches!(p, Pixel::Open { .. })).count();
+    let hit = |p: &&(usize, &Pixel)| matches!(p.1, Pixel::Hit { .. });
+    let hits: Vec<usize> = proved.pixels.iter().enumerate().filter(|p| hit(&p)).map(|p| p.0).collect();
+    let wide = |k: &&usize| proved.lights[0][**k][1] - proved.lights[0][**k][0] > TOLERANCE;
+    let percent = |n: usize, of: usize| format!("{:.2}", 100.0 * n as f64 / of.max(1) as f64);
+    println!(
+        "| {name} | {width}x{height} | {} | {} | {} | {} | {} | {}, {} | {:.1}, {:.1} |",
+        each.join(" | "),
+        ms(times.iter().sum()),
+        ms(wall),
+        percent(open, proved.pixels.len()),
+        percent(hits.iter().filter(wide).count(), hits.len()),
+        proved.divided[0],
+        proved.divided[1],
+        proved.evaluations[0] as f64 * 1e-6,
+        proved.evaluations[1] as f64 * 1e-6,
+    );
+}

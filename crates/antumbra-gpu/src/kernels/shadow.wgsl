@@ -1,0 +1,238 @@
+// Which part of a light does a hit see? `whole` settles hits that see all or nothing of it, `cells` divides the light for the others,
+// one thread per part: certified shares are added up as integers.
+
+@group(0) @binding(2) var<storage, read> found: array<vec4<u32>>;
+// Per pixel: the lit share and the hidden share that are proved, in units of 2^-30.
+@group(0) @binding(3) var<storage, read_write> lit: array<atomic<u32>>;
+@group(0) @binding(4) var<storage, read_write> dark: array<atomic<u32>>;
+struct List { count: atomic<u32>, items: array<vec2<u32>> }
+// Work of this pass, and of the next: pixel, and part of the light (row << 16 | column).
+@group(0) @binding(5) var<storage, read_write> work: List;
+@group(0) @binding(6) var<storage, read_write> more: List;
+@group(0) @binding(7) var<storage, read_write> spent: atomic<u32>;
+
+const ONE = 1073741824u;    // 2^30
+const HIT = 1u;
+// The slope decides where t_lo <= 0.9 t_hi.
+const SLOPE: f32 = 0.9;
+const NEAR: f32 = 0.3;
+// Strips of a part of the light.
+const STRIPS = 8u;
+
+struct Hit { p: vec3<f32>, e: vec3<f32>, surface: u32, positive: bool }
+
+// The box of a hit: the centre ray between its parameters.
+fn hit_of(index: u32) -> Hit {
+    let it = found[index];
+    let q = camera_point(pixel_ray(index, 0.0), it.y, it.z - it.y);
+    let e = vec3<f32>(f_radius(q.x), f_radius(q.y), f_radius(q.z));
+    return Hit(vec3<f32>(q.x.c, q.y.c, q.z.c), e, (it.x >> 8u) & 0xffu, (it.x >> 16u) == 1u);
+}
+
+// The beam from a hit to the part of the light with the middle m and half sides h, in coordinates [-1, 1] of the light (dyadic: exact).
+// The directions are those from the middle of the hit's box; e bounds what is wrong with the light alone.
+fn beam_of(hit: Hit, m: vec2<f32>, h: vec2<f32>) -> Ray {
+    let at = add3(add3(frame.center.xyz, mul3(vec3<f32>(m.x), frame.edge_u.xyz)), mul3(vec3<f32>(m.y), frame.edge_v.xyz));
+    let c = sub3(at, hit.p);
+    let e = add3(frame.light_e.xyz, mul3(vec3<f32>(4.0 * U), add3(abs(c), abs(at))));
+    return Ray(c, frame.edge_u.xyz * h.x, frame.edge_v.xyz * h.y, e);
+}
+
+// Points of the beam: with P = p + r, |r| <= e, P + t (L - P) = p + t (L - p) + (1 - t) r.
+fn beam_point(hit: Hit, ray: Ray, pos: u32, len: u32) -> Point {
+    return along(hit.p, hit.e, ray, f32(2u * pos + len) * frame.half_unit, f32(len) * frame.half_unit);
+}
+
+// The slope of f over a piece: the direction from the true hit is L - p - r.
+fn beam_slope(hit: Hit, ray: Ray, p: Point) -> Form {
+    let e = mul3(add3(ray.e, hit.e), vec3<f32>(1.0 + 8.0 * U));
+    let x = Slope(Ball(hit.p.x, hit.e.x), p.x, Form(ray.c.x, e.x, vec3<f32>(0.0, ray.i.x, ray.j.x)));
+    let y = Slope(Ball(hit.p.y, hit.e.y), p.y, Form(ray.c.y, e.y, vec3<f32>(0.0, ray.i.y, ray.j.y)));
+    let z = Slope(Ball(hit.p.z, hit.e.z), p.z, Form(ray.c.z, e.z, vec3<f32>(0.0, ray.i.z, ray.j.z)));
+    return slope(hit.surface, x, y, z);
+}
+
+// Sign of a surface's function at the hit, where every zero beyond counts; 0 if unknown. For the hit's own: the viewer's side.
+fn front_of(hit: Hit, k: u32) -> i32 {
+    if k == hit.surface { return select(-1, 1, hit.positive); }
+    let none = vec3<f32>(0.0);
+    let p = Point(Form(hit.p.x, hit.e.x, none), Form(hit.p.y, hit.e.y, none), Form(hit.p.z, hit.e.z, none));
+    if !inside(k, p) { return 0; }
+    return f_sign(field(k, p));
+}
+
+// What is known of a part of the light: certainly lit and certainly hidden shares.
+struct Shares { lit: f32, dark: f32 }
+
+// Share of the square [-1, 1]^2 in which k + a u + b v > 0, at least that. With p = max(|a|, |b|), q the other: 0 up to -(p + q), then the
+// triangle (k + p + q)^2 / (8 p q), from -(p - q) to p - q the trapezoid 1/2 + k / (2 p), then 1 less a triangle. Monotone in k. Roundings
+// move the result by less than 2^-18: quotients are at most 2 and within 10 u, k + p + q is within 4 u p, which by p and q
+// makes 8 u.
+fn half_plane(k: f32, a: f32, b: f32) -> f32 {
+    let p = max(abs(a), abs(b));
+    var q = min(abs(a), abs(b));
+    var c = sub(k, mul(8.0 * U, add(abs(k), add(p, q))));
+    let s = add(p, q);
+    if c <= -s || p < 1e-25 { return select(0.0, 1.0, c > mul(s, 1.0 + 8.0 * U)); }
+    if c >= mul(s, 1.0 + 8.0 * U) { return 1.0; }
+    if q < p * 1e-5 {
+        // A thin triangle counts as missing.
+        c = sub(c, mul(q, 1.0 + 8.0 * U));
+        q = 0.0;
+    }
+    var share = 0.0;
+    if abs(c) <= sub(p, q) {
+        share = 0.5 + 0.5 * (c / p);
+    } else if c < 0.0 {
+        let x = add(c, add(p, q));
+        share = 0.125 * fence(x / p) * fence(x / q);
+        if x <= 0.0 || q == 0.0 { share = 0.0; }
+    } else {
+        let x = sub(add(p, q), c);
+        share = 1.0;
+        if q > 0.0 { share = 1.0 - 0.125 * fence(x / p) * fence(x / q); }
+    }
+    return clamp(share - 7.6e-6, 0.0, 1.0);
+}
+
+// Looks at a part of the light with all surfaces. Where planes are wanted, they bound the shares of the lit and of the hidden part; else
+// anything open ends the search with (0, 0).
+fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool) -> Shares {
+    let ray = beam_of(hit, m, h);
+    let distance = max(abs(ray.c.x), max(abs(ray.c.y), abs(ray.c.z)));
+    let size = 2.0 * max(length(ray.i), length(ray.j));
+    let leaf = aspect * size / distance;
+    // The lit part of the square is an intersection of half planes: where does it begin and end along the lines between strips?
+    var begin: array<f32, STRIPS + 1u>;
+    var end: array<f32, STRIPS + 1u>;
+    for (var i = 0u; i <= STRIPS; i++) { begin[i] = -1.0; end[i] = 1.0; }
+    var hidden = 0.0;
+    var swap = false;
+    var open = 0u;
+    var evaluations = 0u;
+
+    for (var k = 0u; k < SURFACES; k++) {
+        let front = front_of(hit, k);
+        let own = k == hit.surface;
+        var pos = 0u;
+        var len = frame.units;
+        while pos < frame.units {
+            let p = beam_point(hit, ray, pos, len);
+            var settled = outside(k, p);
+            if !settled {
+                evaluations++;
+                var f: Form;
+                if own && f32(pos) <= SLOPE * f32(pos + len) { f = beam_slope(hit, ray, p); } else { f = field(k, p); }
+                if front < 0 { f = f_neg(f); }
+                let s = f_sign(f);
+                // Lower plane at the parameter where it is lowest, and its upper bound there.
+                let bottom = sub(f.c, abs(f.a.x));
+                let e = add(f.e, mul(4.0 * U, add(abs(f.c), abs(f.a.x))));
+                let across = add(abs(f.a.y), abs(f.a.z));
+                let top = add(add(bottom, across), e);
+                let hides = front != 0 && inside(k, p);
+                if hides && top < -mul(4.0 * U, add(add(abs(bottom), across), e)) {
+                    atomicAdd(&spent, evaluations);
+                    return Shares(0.0, 1.0);
+                }
+                // The segments leave to the wrong side.
+                if s < 0 && own && pos == 0u {
+                    atomicAdd(&spent, evaluations);
+                    return Shares(0.0, 1.0);
+                }
+                settled = s != 0;
+                if !settled && len > 1u && f32(len) > leaf * max(f32(pos + len), NEAR * f32(frame.units)) {
+                    len = len >> 1u;
+                    continue;
+                }
+                if !settled && !planes {
+                    atomicAdd(&spent, evaluations);
+                    return Shares(0.0, 0.0);
+                }
+                if !settled {
+                    // Sweep along the axis on which the first plane depends less.
+                    if open == 0u { swap = abs(f.a.z) > abs(f.a.y); }
+                    open++;
+                    let a = select(f.a.y, f.a.z, swap);
+                    let b = select(f.a.z, f.a.y, swap);
+                    if hides {
+                        // Hidden where bottom + a u + b v < -e.
+                        hidden = max(hidden, half_plane(sub(-bottom, mul(e, 1.0 + 8.0 * U)), a, b));
+                    }
+                    let pad = mul(12.0 * U, add(add(abs(bottom), across), e));
+                    for (var i = 0u; i <= STRIPS; i++) {
+                        let v = f32(i) * (2.0 / f32(STRIPS)) - 1.0;
+                        // Lit where a u > rhs; the quotient of |rhs| < |a| is off by less than 8 u.
+                        let rhs = add(sub(sub(e, bottom), mul(b, v)), pad);
+                        if rhs >= abs(a) || abs(a) < 1e-25 {
+                            begin[i] = select(begin[i], 2.0, rhs >= -abs(a));
+                        } else if rhs > -abs(a) {
+                            let u = fence(rhs / a);
+                            if a > 0.0 { begin[i] = max(begin[i], u + 4e-6); } else { end[i] = min(end[i], u - 4e-6); }
+                        }
+                    }
+                }
+            }
+            pos += len;
+            if len < frame.units && (pos & (2u * len - 1u)) == 0u { len = len << 1u; }
+        }
+    }
+    atomicAdd(&spent, evaluations);
+    if open == 0u { return Shares(1.0, 0.0); }
+    // Lit points on two lines span a lit trapezoid: the lit part is convex.
+    var area = 0.0;
+    for (var i = 0u; i < STRIPS; i++) {
+        let x = end[i] - begin[i];
+        let y = end[i + 1u] - begin[i + 1u];
+        if x > 0.0 && y > 0.0 { area += x + y; }
+    }
+    // Lengths of up to 2, twice per strip; some roundings of 2^-23.
+    let share = clamp(area * (0.25 / f32(STRIPS)) - 4e-6, 0.0, 1.0);
+    return Shares(share, hidden);
+}
+
+@compute @workgroup_size(64)
+fn whole(@builtin(global_invocation_id) id: vec3<u32>) {
+    let index = frame.first + id.x;
+    if id.x >= frame.count || (found[index].x & 0xffu) != HIT { return; }
+    let shares = look(hit_of(index), vec2<f32>(0.0), vec2<f32>(1.0), 1.0, false);
+    if shares.lit == 1.0 { atomicStore(&lit[index], ONE); return; }
+    if shares.dark == 1.0 { atomicStore(&dark[index], ONE); return; }
+    let at = atomicAdd(&more.count, 1u);
+    if at < arrayLength(&more.items) { more.items[at] = vec2<u32>(index, 0u); }
+}
+
+// Each item of `work` is a square of the grid of SIDE x SIDE squares of the light; it is divided in SPLIT x SPLIT.
+override SIDE: u32 = 1u;
+override SPLIT: u32 = 8u;
+// What remains unknown of a part beyond this share is looked at again.
+override REST: f32 = 0.01;
+@compute @workgroup_size(64)
+fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
+         @builtin(local_invocation_index) local: u32) {
+    let parts = SPLIT * SPLIT;
+    let n = SIDE * SPLIT;
+    let items = min(atomicLoad(&work.count), arrayLength(&work.items));
+    let unit = ONE / (n * n);
+    for (var number = group.x * 64u + local; number < items * parts; number += groups.x * 64u) {
+        let item = work.items[number / parts];
+        let part = number % parts;
+        let column = (item.y & 0xffffu) * SPLIT + part % SPLIT;
+        let row = (item.y >> 16u) * SPLIT + part / SPLIT;
+        // n is a power of two: exact.
+        let h = 1.0 / f32(n);
+        let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
+        let shares = look(hit_of(item.x), m, vec2<f32>(h), 2.0, true);
+        let unknown = 1.0 - shares.lit - shares.dark;
+        if unknown > REST {
+            let at = atomicAdd(&more.count, 1u);
+            if at < arrayLength(&more.items) {
+                more.items[at] = vec2<u32>(item.x, row << 16u | column);
+                continue;
+            }
+        }
+        // The integer part is rounded down; f32(unit) is exact.
+        atomicAdd(&lit[item.x], select(u32(shares.lit * f32(unit)), unit, shares.lit == 1.0));
+        atomicAdd(&dark[item.x], select(u32(shares.dark * f32(unit)), unit, shares.dark == 1.0));
+    }
+}

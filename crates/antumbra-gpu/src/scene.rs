@@ -1,0 +1,239 @@
+//! A scene as kernels see it: formulas as text, numbers rounded outward.
+use crate::device::Error;
+use antumbra::eval::wgsl::{self, FLOOR, Kind, Reach, ball, outward};
+use antumbra::geom::{Clip, Film, Rect, Vec3};
+use antumbra::tape::Tape;
+use antumbra::trace::Surface;
+use antumbra_interval::Interval;
+use bytemuck::{Pod, Zeroable};
+use std::fmt::Write;
+
+/// `Frame` of `frame.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct Frame {
+    pub(crate) zero: u32,
+    pub(crate) width: u32,
+    pub(crate) height: u32,
+    pub(crate) first: u32,
+    pub(crate) count: u32,
+    pub(crate) begin: u32,
+    pub(crate) end: u32,
+    pub(crate) longest: u32,
+    pub(crate) half_quantum: f32,
+    pub(crate) half_unit: f32,
+    pub(crate) units: u32,
+    pub(crate) light: u32,
+    pub(crate) eye: [f32; 4],
+    pub(crate) eye_e: [f32; 4],
+    pub(crate) forward: [f32; 4],
+    pub(crate) right: [f32; 4],
+    pub(crate) up: [f32; 4],
+    pub(crate) dir_e: [f32; 4],
+    pub(crate) center: [f32; 4],
+    pub(crate) edge_u: [f32; 4],
+    pub(crate) edge_v: [f32; 4],
+    pub(crate) light_e: [f32; 4],
+}
+
+/// `Region` of `frame.wgsl`.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, Pod, Zeroable)]
+pub(crate) struct Region {
+    clip_lo: [f32; 4],
+    clip_hi: [f32; 4],
+    whole_lo: [f32; 4],
+    whole_hi: [f32; 4],
+}
+
+/// The unit of rounding, 2^-23.
+const U: f64 = f32::EPSILON as f64;
+/// Beyond this nothing is looked at.
+const FAR: f32 = 1e30;
+/// Multiples of the quantum that parameters of shadow beams have: 2^20.
+const UNITS: u32 = 1 << 20;
+/// Most surfaces of a scene.
+const MOST: usize = 8;
+
+fn vec4(v: [f32; 3]) -> [f32; 4] {
+    [v[0], v[1], v[2], 0.0]
+}
+
+fn round(v: Vec3) -> [f32; 4] {
+    vec4(v.0.map(|x| ball(Interval::point(x)).0))
+}
+
+/// A float at least as large as `r`, and as [`FLOOR`].
+fn bound(r: f64) -> f32 {
+    outward(Interval::point(r))[1].max(FLOOR)
+}
+
+fn errors(of: impl Fn(usize) -> f64) -> [f32; 4] {
+    vec4(std::array::from_fn(|k| bound(of(k))))
+}
+
+impl Region {
+    fn of(surface: &Surface<'_>) -> Self {
+        let (mut clip_lo, mut clip_hi) = ([-FAR; 4], [FAR; 4]);
+        let (mut whole_lo, mut whole_hi) = ([-FAR; 4], [FAR; 4]);
+        let clip = surface.clip.bounds();
+        let whole = match surface.region {
+            // A box inside the ball: half its side is at most r / sqrt(3).
+            Clip::Ball { center, radius } => {
+                center.0.map(|c| Interval::point(c) + Interval::new(-0.577 * radius, 0.577 * radius))
+            }
+            other => other.bounds().0,
+        };
+        let finite = |v: f32| v.clamp(-FAR, FAR);
+        for k in 0..3 {
+            // The clip outward, the region inward.
+            [clip_lo[k], clip_hi[k]] = outward(clip[k]).map(finite);
+            let [lo, hi] = outward(whole[k]).map(finite);
+            [whole_lo[k], whole_hi[k]] = [lo.next_up(), hi.next_down()];
+        }
+        Self { clip_lo, clip_hi, whole_lo, whole_hi }
+    }
+}
+
+/// The numbers of a picture: scene, film, and none or one light.
+pub(crate) fn frame(surfaces: &[Surface<'_>], film: &Film) -> Result<(Frame, Vec<Region>), Error> {
+    let camera = &film.camera;
+    let (right, up) = (camera.right * (1.0 / film.width as f64), camera.up * (1.0 / film.height as f64));
+    // Roundings of the vectors (1/2 each), two products, two sums; half a unit to spare. Dividing by the size of the film took another 2^-52.
+    let size = |k: usize| camera.forward[k].abs() + camera.right[k].abs() + camera.up[k].abs();
+    let fan = film.fan(0..film.width, 0..film.height);
+    let directions = fan.directions();
+    let mut reach = Interval::EMPTY;
+    for surface in surfaces {
+        reach = reach.hull(surface.passage(&fan.apex, &directions).outer);
+    }
+    // Nothing in sight: any stretch will do.
+    let reach = if reach.is_empty() { Interval::new(0.0, 1.0) } else { reach };
+    if reach.hi() > 1e6 {
+        return Err(Error::Scene("the scene is not bounded"));
+    }
+    // The quantum: a power of two, the end below 2^22 of them.
+    let mut quantum = 1.0 / 16_777_216.0;
+    while reach.hi() > 4_000_000.0 * quantum {
+        quantum *= 2.0;
+    }
+    let begin = (reach.lo() / quantum).floor().max(1.0) as u32 - 1;
+    let end = (reach.hi() / quantum).ceil() as u32 + 1;
+    let longest = ((end - begin) / 4).next_power_of_two().min(1 << 21);
+    let frame = Frame {
+        zero: 0,
+        width: film.width as u32,
+        height: film.height as u32,
+        first: 0,
+        count: 0,
+        begin,
+        end,
+        longest,
+        half_quantum: (0.5 * quantum) as f32,
+        half_unit: 0.5 / UNITS as f32,
+        units: UNITS,
+        light: 0,
+        eye: round(camera.eye),
+        eye_e: errors(|k| 0.5 * U * camera.eye[k].abs()),
+        forward: round(camera.forward),
+        right: round(right),
+        up: round(up),
+        dir_e: errors(|k| 6.0 * U * size(k)),
+        center: [0.0; 4],
+        edge_u: [0.0; 4],
+        edge_v: [0.0; 4],
+        light_e: [FLOOR; 4],
+    };
+    Ok((frame, surfaces.iter().map(Region::of).collect()))
+}
+
+impl Frame {
+    /// Multiples of this are the parameters of camera rays.
+    pub(crate) fn quantum(&self) -> f64 {
+        2.0 * f64::from(self.half_quantum)
+    }
+
+    /// The same picture under that light.
+    pub(crate) fn lit_by(self, index: usize, light: &Rect) -> Self {
+        let size = |k: usize| light.center[k].abs() + light.edge_u[k].abs() + light.edge_v[k].abs();
+        Self {
+            light: index as u32,
+            center: round(light.center),
+            edge_u: round(light.edge_u),
+            edge_v: round(light.edge_v),
+            // Roundings of the vectors (1/2 each), two products and two sums of their size.
+            light_e: errors(|k| 6.0 * U * size(k)),
+            ..self
+        }
+    }
+}
+
+/// Magnitudes that coordinates and directions of any beam stay below, per axis.
+fn magnitudes(frame: &Frame, film: &Film, lights: &[Rect]) -> [f64; 3] {
+    let far = frame.quantum() * f64::from(frame.end + frame.longest);
+    std::array::from_fn(|k| {
+        let c = &film.camera;
+        let seen = c.eye[k].abs() + far * (c.forward[k].abs() + c.right[k].abs() + c.up[k].abs());
+        let light = |l: &Rect| l.center[k].abs() + l.edge_u[k].abs() + l.edge_v[k].abs();
+        // Form over a piece: at most twice the distance there; a direction, at most once; and much to spare.
+        4.0 * (seen + lights.iter().map(light).fold(0.0, f64::max)) + 1.0
+    })
+}
+
+/// Formulas of the surfaces as WGSL, in the kinds of number that are wanted.
+///
+/// # Errors
+/// Why they stay on the CPU.
+pub(crate) fn functions(
+    surfaces: &[Surface<'_>],
+    kinds: &[Kind],
+    frame: &Frame,
+    film: &Film,
+    lights: &[Rect],
+) -> Result<String, Error> {
+    if surfaces.is_empty() || surfaces.len() > MOST {
+        return Err(Error::Scene("a scene on the GPU has 1 to 8 surfaces"));
+    }
+    let reach = magnitudes(frame, film, lights);
+    let mut text = format!("const SURFACES = {}u;\n", surfaces.len());
+    let mut choose: Vec<String> = vec![String::new(); kinds.len()];
+    for (k, surface) in surfaces.iter().enumerate() {
+        let tape: &Tape = surface.function.as_tape().ok_or(wgsl::Refusal::NoFormula)?;
+        for (kind, choose) in kinds.iter().zip(&mut choose) {
+            let name = format!("{}{k}", name(*kind));
+            text.push_str(&wgsl::function(tape, &name, *kind)?);
+            let last = k + 1 == surfaces.len();
+            let label = if last { "default".to_owned() } else { format!("case {k}u") };
+            writeln!(choose, "        {label}: {{ return {}; }}", call(*kind, &name)).expect("strings take any text");
+        }
+        Reach::check(tape, reach, reach)?;
+        if !tape.is_continuous_everywhere() {
+            return Err(Error::Scene("a formula that is not continuous everywhere stays on the CPU"));
+        }
+    }
+    for (kind, choose) in kinds.iter().zip(choose) {
+        let head = match kind {
+            Kind::Form => "fn field(k: u32, p: Point) -> Form",
+            Kind::Slope => "fn slope(k: u32, x: Slope, y: Slope, z: Slope) -> Form",
+            Kind::Interval => "fn range(k: u32, x: vec2<f32>, y: vec2<f32>, z: vec2<f32>) -> vec2<f32>",
+        };
+        write!(text, "{head} {{\n    switch k {{\n{choose}    }}\n}}\n").expect("strings take any text");
+    }
+    Ok(text)
+}
+
+fn name(kind: Kind) -> &'static str {
+    match kind {
+        Kind::Form => "form",
+        Kind::Slope => "slope",
+        Kind::Interval => "interval",
+    }
+}
+
+fn call(kind: Kind, name: &str) -> String {
+    match kind {
+        Kind::Form => format!("{name}(p.x, p.y, p.z)"),
+        Kind::Slope => format!("{name}(x, y, z).g"),
+        Kind::Interval => format!("{name}(x, y, z)"),
+    }
+}
