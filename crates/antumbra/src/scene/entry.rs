@@ -152,7 +152,7 @@ pub struct CameraEntry {
     /// Full angle over the shorter side of the picture, degrees.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub angle: Option<f64>,
-    /// Whether parallel lines stay parallel: see [`View::orthographic`].
+    /// Whether parallel lines stay parallel: see [`View::orthographic`](super::View::orthographic).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub orthographic: Option<bool>,
     /// Of an orthographic camera: the length that the shorter side of the picture shows.
