@@ -245,8 +245,7 @@ impl Scratch {
             }
             occupancy.count(lanes);
             block.prepare(OWN_OF_GRADIENTS + PARTS * tape.slots(), lanes);
-            for axis in 0..3 {
-                let slot = PARTS * axis;
+            for (axis, slot) in (0..3).map(|axis| (axis, PARTS * axis)) {
                 block.load(slot, lanes, |lane| regions[lane][axis]);
                 for k in 0..3 {
                     block.fill(slot + 1 + k, if k == axis { Interval::ONE } else { Interval::ZERO });

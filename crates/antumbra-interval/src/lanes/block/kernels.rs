@@ -401,7 +401,7 @@ impl<V: Vector> Kernel<V> for IntervalOf<V> {
     #[inline(always)]
     fn power(self, n: u32) -> (Self, V::Mask) {
         let (lo, hi, zero) = (self.lo.abs(), self.hi.abs(), V::splat(0.0));
-        let value = if n % 2 == 0 {
+        let value = if n.is_multiple_of(2) {
             let across = V::both(self.lo.le(zero), zero.le(self.hi));
             let least = Self::chain(lo.lesser(hi), n, false);
             Self { lo: V::select(across, zero, least), hi: Self::chain(lo.greater(hi), n, true) }
