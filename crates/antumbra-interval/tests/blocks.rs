@@ -52,8 +52,8 @@ fn agree<F: Packed + std::fmt::Debug>(any: impl Fn(&mut Generator) -> F, seed: u
                     None if n == 0 => block.coordinate(level, out, 0, 1, 2),
                     None => block.power(level, lanes, n, out, 0),
                 }
-                for lane in 0..lanes {
-                    let [a, b, c] = [0, 1, 2].map(|k: usize| operands[k][lane]);
+                for (lane, ((a, b), c)) in operands[0].iter().zip(&operands[1]).zip(&operands[2]).enumerate() {
+                    let (a, b, c) = (*a, *b, *c);
                     let wanted = match ring {
                         Some(ring) => F::ring(ring, a, b),
                         None if n == 0 => F::coordinate(a, b, c),
