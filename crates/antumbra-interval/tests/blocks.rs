@@ -37,7 +37,7 @@ fn agree<F: Packed + std::fmt::Debug>(any: impl Fn(&mut Generator) -> F, seed: u
         for round in 0..rounds {
             let lanes = round % MOST + 1;
             let operands: [Vec<F>; 3] = std::array::from_fn(|_| (0..lanes).map(|_| any(&mut g)).collect());
-            for op in 0..=Ring::ALL.len() {
+            for op in 0..=Ring::ALL.len() + 8 {
                 // Results in a slot of their own, or in that of an operand.
                 let out = [3, 0, 1][round % 3];
                 block.prepare(4, lanes);
@@ -46,16 +46,22 @@ fn agree<F: Packed + std::fmt::Debug>(any: impl Fn(&mut Generator) -> F, seed: u
                     block.pad(slot, lanes);
                 }
                 let ring = Ring::ALL.get(op).copied();
+                let n = op as i32 - Ring::ALL.len() as i32;
                 match ring {
                     Some(ring) => block.ring(level, ring, out, 0, 1),
-                    None => block.coordinate(level, out, 0, 1, 2),
+                    None if n == 0 => block.coordinate(level, out, 0, 1, 2),
+                    None => block.power(level, lanes, n, out, 0),
                 }
-                for lane in 0..lanes {
-                    let [a, b, c] = [0, 1, 2].map(|k: usize| operands[k][lane]);
-                    let wanted = ring.map_or_else(|| F::coordinate(a, b, c), |op| F::ring(op, a, b));
+                for (lane, ((a, b), c)) in operands[0].iter().zip(&operands[1]).zip(&operands[2]).enumerate() {
+                    let (a, b, c) = (*a, *b, *c);
+                    let wanted = match ring {
+                        Some(ring) => F::ring(ring, a, b),
+                        None if n == 0 => F::coordinate(a, b, c),
+                        None => a.power(n),
+                    };
                     let got = block.get(out, lane);
                     let same = (0..F::COMPONENTS).all(|i| got.component(i).to_bits() == wanted.component(i).to_bits());
-                    let question = || format!("{level:?} {ring:?} lane {lane} of {lanes}: {a:?} {b:?} {c:?}");
+                    let question = || format!("{level:?} {ring:?} {n} lane {lane} of {lanes}: {a:?} {b:?} {c:?}");
                     assert!(same, "{}: {got:?} instead of {wanted:?}", question());
                 }
             }

@@ -2,8 +2,8 @@
 //!
 //! **Levels.** [`Level::Portable`] runs everywhere and gives the same bounds as [`Interval`]. [`Level::Avx512`] uses the
 //! processor's directed rounding and gives the tightest floating-point bounds; where the portable result is wider it is
-//! so by one step of [`crate::round`] at each end. Both are always enclosures, lane by lane; neither depends on a lane's
-//! position or on its neighbours.
+//! so by one step of [`crate::round`] at each end. ([`Level::Avx2`] takes the portable kernels here.) All are enclosures, lane by lane; neither depends on a lane's
+//! position or on its neighbours. [`block`] is the other kind of batch: the same bits on every level.
 //!
 //! **Lanes.** Each lane satisfies the invariant of [`Interval`]. A lane with `lo > hi` is empty and makes an empty lane,
 //! `[+inf, -inf]`. A lane with a NaN makes `[-inf, +inf]`: no information, never a proof.
@@ -54,6 +54,19 @@ impl Level {
             return Self::Avx2(proof);
         }
         Self::Portable
+    }
+
+    /// Whether the kernels on slices of intervals round in a direction and so give the tightest bounds. (Blocks never do: their bits are
+    /// the same on every level.)
+    #[must_use]
+    pub const fn is_directed(self) -> bool {
+        match self {
+            Self::Portable => false,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx2(_) => false,
+            #[cfg(target_arch = "x86_64")]
+            Self::Avx512(_) => true,
+        }
     }
 
     /// Every level of this processor, the portable one first.

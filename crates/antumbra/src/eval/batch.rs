@@ -9,7 +9,7 @@ use crate::tape::{Op, Tape};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Dual};
 use antumbra_interval::lanes::Level;
-use antumbra_interval::lanes::block::{Block, MOST, Packed, Ring};
+use antumbra_interval::lanes::block::{Block, MOST, Packed, Ring, WIDTH};
 
 /// Parameters `t` of a thin beam.
 #[derive(Clone, Copy, Debug)]
@@ -55,9 +55,33 @@ const FEWEST: usize = 3;
 /// Slots before those of the tape: the parameter, three directions that become coordinates, three starting points.
 const OWN: usize = 7;
 
+/// How full batches were.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Occupancy {
+    /// Questions that were answered in batches.
+    pub questions: u64,
+    /// Lanes of the vectors that answered them: eight for each vector begun.
+    pub lanes: u64,
+}
+
+impl std::ops::AddAssign for Occupancy {
+    fn add_assign(&mut self, o: Self) {
+        self.questions += o.questions;
+        self.lanes += o.lanes;
+    }
+}
+
+impl Occupancy {
+    fn count(&mut self, questions: usize) {
+        self.questions += questions as u64;
+        self.lanes += questions.next_multiple_of(WIDTH) as u64;
+    }
+}
+
 /// Scratch memory of batches.
 #[derive(Debug)]
 pub(super) struct Scratch {
+    pub(super) occupancy: Occupancy,
     level: Level,
     ranges: Block<Interval>,
     rays: Block<Dual<1>>,
@@ -74,7 +98,14 @@ impl Default for Scratch {
 
 impl Scratch {
     pub(super) fn on(level: Level) -> Self {
-        Self { level, ranges: Block::default(), rays: Block::default(), beams: Block::default(), places: Vec::new() }
+        Self {
+            occupancy: Occupancy::default(),
+            level,
+            ranges: Block::default(),
+            rays: Block::default(),
+            beams: Block::default(),
+            places: Vec::new(),
+        }
     }
 }
 
@@ -106,7 +137,7 @@ fn run_block<F: Number + Packed>(
             Op::Binary(Binary::Sub) => block.ring(level, Ring::Sub, out, a, b),
             Op::Binary(Binary::Mul) => block.ring(level, Ring::Mul, out, a, b),
             Op::Unary(op) => block.map(lanes, out, a, |x| x.unary(op)),
-            Op::Powi(n) => block.map(lanes, out, a, |x| x.powi(n)),
+            Op::Powi(n) => block.power(level, lanes, n, out, a),
             Op::Binary(op) => block.map2(lanes, out, a, b, |x, y| x.binary(op, y)),
         }
         places[clause.out as usize] = last;
@@ -126,98 +157,96 @@ fn start<F: Packed, T>(
         if pieces.iter().all(|piece| of(piece, axis) == first) {
             block.fill(4 + axis, form(first));
         } else {
-            pieces.iter().enumerate().for_each(|(lane, piece)| block.set(4 + axis, lane, form(of(piece, axis))));
-            block.pad(4 + axis, pieces.len());
+            block.load(4 + axis, pieces.len(), |lane| form(of(&pieces[lane], axis)));
         }
+    }
+}
+
+/// What runs of all kinds share.
+struct Runs<'a> {
+    tape: &'a Tape,
+    level: Level,
+    places: &'a mut Vec<usize>,
+    occupancy: &'a mut Occupancy,
+}
+
+impl Runs<'_> {
+    /// Answers all questions but a few at the end. `load` writes parameter, directions and starting points into slots 0 to 6.
+    fn answer<F: Number + Packed, T>(
+        self,
+        block: &mut Block<F>,
+        pieces: &[T],
+        out: &mut [F],
+        load: impl Fn(&mut Block<F>, &[T]),
+    ) -> Unasked {
+        for (pieces, out) in pieces.chunks(MOST).zip(out.chunks_mut(MOST)) {
+            let lanes = pieces.len();
+            if lanes < FEWEST {
+                return Unasked(lanes);
+            }
+            self.occupancy.count(lanes);
+            block.prepare(OWN + self.tape.slots(), lanes);
+            load(block, pieces);
+            let value = run_block(self.tape, block, lanes, self.level, self.places);
+            out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
+        }
+        Unasked(0)
     }
 }
 
 impl Scratch {
     /// Enclosures of the function over the boxes of the pieces.
     pub(super) fn ranges(&mut self, tape: &Tape, pieces: &[RayPiece], out: &mut [Interval]) -> Unasked {
-        let Self { level, ranges: block, places, .. } = self;
-        for (pieces, out) in pieces.chunks(MOST).zip(out.chunks_mut(MOST)) {
-            let lanes = pieces.len();
-            if lanes < FEWEST {
-                return Unasked(lanes);
-            }
-            block.prepare(OWN + tape.slots(), lanes);
-            for (lane, piece) in pieces.iter().enumerate() {
-                block.set(0, lane, piece.t);
-                (0..3).for_each(|axis| block.set(1 + axis, lane, piece.ray.direction[axis]));
-            }
-            (0..4).for_each(|slot| block.pad(slot, lanes));
+        let Self { occupancy, level, ranges, places, .. } = self;
+        Runs { tape, level: *level, places, occupancy }.answer(ranges, pieces, out, |block, pieces| {
+            block.load(0, pieces.len(), |lane| pieces[lane].t);
+            (0..3).for_each(|axis| block.load(1 + axis, pieces.len(), |lane| pieces[lane].ray.direction[axis]));
             start(block, pieces, |piece, axis| Interval::point(piece.ray.origin[axis]), |p| p);
-            let value = run_block(tape, block, lanes, *level, places);
-            out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
-        }
-        Unasked(0)
+        })
     }
 
     /// Values and derivatives along the pieces.
     pub(super) fn rays(&mut self, tape: &Tape, pieces: &[RayPiece], out: &mut [Dual<1>]) -> Unasked {
-        let Self { level, rays: block, places, .. } = self;
-        for (pieces, out) in pieces.chunks(MOST).zip(out.chunks_mut(MOST)) {
-            let lanes = pieces.len();
-            if lanes < FEWEST {
-                return Unasked(lanes);
+        let Self { occupancy, level, rays, places, .. } = self;
+        Runs { tape, level: *level, places, occupancy }.answer(rays, pieces, out, |block, pieces| {
+            // Of parameters and directions only the values are read.
+            block.load(0, pieces.len(), |lane| Affine::<1>::spanning(0, pieces[lane].t));
+            for axis in 0..3 {
+                block.load(1 + axis, pieces.len(), |lane| Affine::<1>::constant(pieces[lane].ray.direction[axis]));
             }
-            block.prepare(OWN + tape.slots(), lanes);
-            for (lane, piece) in pieces.iter().enumerate() {
-                block.set_first(0, lane, &Affine::<1>::spanning(0, piece.t));
-                for axis in 0..3 {
-                    block.set_first(1 + axis, lane, &Affine::<1>::constant(piece.ray.direction[axis]));
-                }
-            }
-            (0..4).for_each(|slot| block.pad(slot, lanes));
             start(block, pieces, |piece, axis| Interval::point(piece.ray.origin[axis]), Dual::constant);
-            let value = run_block(tape, block, lanes, *level, places);
-            out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
-        }
-        Unasked(0)
+        })
     }
 
     /// The function as linear functions over the pieces.
     pub(super) fn beams(&mut self, tape: &Tape, pieces: &[FanPiece], out: &mut [Affine<3>]) -> Unasked {
-        let Self { level, beams: block, places, .. } = self;
-        for (pieces, out) in pieces.chunks(MOST).zip(out.chunks_mut(MOST)) {
-            let lanes = pieces.len();
-            if lanes < FEWEST {
-                return Unasked(lanes);
-            }
-            block.prepare(OWN + tape.slots(), lanes);
-            for (lane, piece) in pieces.iter().enumerate() {
-                block.set(0, lane, Affine::spanning(0, piece.t));
-                (0..3).for_each(|axis| block.set(1 + axis, lane, piece.fan.direction[axis]));
-            }
-            (0..4).for_each(|slot| block.pad(slot, lanes));
+        let Self { occupancy, level, beams, places, .. } = self;
+        Runs { tape, level: *level, places, occupancy }.answer(beams, pieces, out, |block, pieces| {
+            block.load(0, pieces.len(), |lane| Affine::<3>::spanning(0, pieces[lane].t));
+            (0..3).for_each(|axis| block.load(1 + axis, pieces.len(), |lane| pieces[lane].fan.direction[axis]));
             start(block, pieces, |piece, axis| piece.fan.apex[axis], Affine::constant);
-            let value = run_block(tape, block, lanes, *level, places);
-            out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
-        }
-        Unasked(0)
+        })
     }
 }
 
 /// Interval slots of a gradient: value and partial derivatives.
 const PARTS: usize = 4;
-/// Interval slots before those of the tape: the coordinates, and two for intermediate results.
-const OWN_OF_GRADIENTS: usize = 3 * PARTS + 2;
+/// Interval slots before those of the tape: the coordinates, and three for intermediate results.
+const OWN_OF_GRADIENTS: usize = 3 * PARTS + 3;
 
 impl Scratch {
     /// Enclosures of value and gradient over boxes.
     pub(super) fn gradients(&mut self, tape: &Tape, regions: &[Box3], out: &mut [Gradient]) -> Unasked {
-        let Self { ranges: block, .. } = self;
+        let Self { occupancy, ranges: block, .. } = self;
         for (regions, out) in regions.chunks(MOST).zip(out.chunks_mut(MOST)) {
             let lanes = regions.len();
             if lanes < FEWEST {
                 return Unasked(lanes);
             }
+            occupancy.count(lanes);
             block.prepare(OWN_OF_GRADIENTS + PARTS * tape.slots(), lanes);
-            for axis in 0..3 {
-                let slot = PARTS * axis;
-                regions.iter().enumerate().for_each(|(lane, region)| block.set(slot, lane, region[axis]));
-                block.pad(slot, lanes);
+            for (axis, slot) in (0..3).map(|axis| (axis, PARTS * axis)) {
+                block.load(slot, lanes, |lane| regions[lane][axis]);
                 for k in 0..3 {
                     block.fill(slot + 1 + k, if k == axis { Interval::ONE } else { Interval::ZERO });
                 }
@@ -258,6 +287,7 @@ impl Gradients<'_> {
                 Op::Binary(Binary::Sub) => (0..PARTS).for_each(|k| self.ring(Ring::Sub, out + k, a + k, b + k)),
                 Op::Binary(Binary::Mul) => self.mul(out, a, b),
                 Op::Unary(op) => self.map(out, a, a, |x, _| x.unary(op)),
+                Op::Powi(n @ 3..=8) => self.power(n, out, a),
                 Op::Powi(n) => self.map(out, a, a, |x, _| x.powi(n)),
                 Op::Binary(op) => self.map(out, a, b, |x, y| x.binary(op, y)),
             }
@@ -279,6 +309,19 @@ impl Gradients<'_> {
             self.ring(Ring::Add, out + k, left, right);
         }
         self.ring(Ring::Mul, out, a, b);
+    }
+
+    /// `(a^n)' = n a^(n-1) a'`, `3 <= n <= 8`.
+    fn power(&mut self, n: i32, out: usize, a: usize) {
+        let [slope, factor, lower] = [3 * PARTS, 3 * PARTS + 1, 3 * PARTS + 2];
+        self.block.fill(factor, Interval::point(f64::from(n)));
+        match n - 1 {
+            2 => self.ring(Ring::Sqr, lower, a, a),
+            m => self.block.power(self.level, self.lanes, m, lower, a),
+        }
+        self.ring(Ring::Mul, slope, factor, lower);
+        (1..PARTS).for_each(|k| self.ring(Ring::Mul, out + k, slope, a + k));
+        self.block.power(self.level, self.lanes, n, out, a);
     }
 
     /// `(a^2)' = 2 a a'`.

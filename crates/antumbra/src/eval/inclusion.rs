@@ -1,5 +1,5 @@
 //! The one public trait: what the renderer needs to know of a function.
-use super::batch::{self, FanPiece, RayPiece, Unasked};
+use super::batch::{self, FanPiece, Occupancy, RayPiece, Unasked};
 use super::{Gradient, PointJet, Regions, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
@@ -33,6 +33,11 @@ impl Workspace {
     #[must_use]
     pub fn on(level: Level) -> Self {
         Self { batch: batch::Scratch::on(level), ..Self::default() }
+    }
+
+    /// How full the batches were since this was asked last.
+    pub fn take_occupancy(&mut self) -> Occupancy {
+        std::mem::take(&mut self.batch.occupancy)
     }
 }
 

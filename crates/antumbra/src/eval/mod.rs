@@ -22,7 +22,7 @@ mod point;
 mod regions;
 pub mod wgsl;
 
-pub use batch::{FanPiece, RayPiece};
+pub use batch::{FanPiece, Occupancy, RayPiece};
 pub use gradient::Gradient;
 pub use inclusion::{BeamPoint, Inclusion, JetPoint, QuadraticPoint, ShaftPoint, Workspace, centred_range};
 pub use jet::PointJet;

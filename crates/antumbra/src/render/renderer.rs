@@ -9,6 +9,7 @@ use super::state::{self, StateError, Stopped};
 use super::task::Task;
 use super::visibility;
 use super::{Error, Frame, Method, RenderSpec, RunSpec, Stats};
+use crate::eval::Occupancy;
 use crate::grid::Grid;
 use crate::scene::Scene;
 use num_integer::Integer;
@@ -320,14 +321,18 @@ impl Renderer {
             }
             Method::Paper(_) => {
                 let rays = this.task.method.uses_rays();
-                by_paper::primary(&this.task, &this.grids, this.pixels(turn), rays)
+                (by_paper::primary(&this.task, &this.grids, this.pixels(turn), rays), Occupancy::default())
             }
         });
         let done = found.len();
         let mut pixels = Vec::with_capacity(done * BLOCK * BLOCK);
-        for pixel in found.into_iter().flatten() {
-            pixels.push(pixel.index);
-            self.book.put_pixel(&self.task, pixel);
+        for (tile, occupancy) in found {
+            self.book.stats.batched_questions += occupancy.questions;
+            self.book.stats.batch_lanes += occupancy.lanes;
+            for pixel in tile {
+                pixels.push(pixel.index);
+                self.book.put_pixel(&self.task, pixel);
+            }
         }
         self.put_colors(&pixels, false);
         done

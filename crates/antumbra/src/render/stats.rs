@@ -65,6 +65,10 @@ pub struct Stats {
     pub edge_evaluations: u64,
     /// The sum of these four.
     pub evaluations: u64,
+    /// Questions to surfaces that were asked in batches: evaluations, and gradients at hits.
+    pub batched_questions: u64,
+    /// Lanes of the vectors that answered them. The quotient is the occupancy of the lanes.
+    pub batch_lanes: u64,
     /// Time for the grid.
     pub grid_seconds: f64,
     /// Time for the hits.

@@ -8,6 +8,7 @@ use super::given::{Given, GivenPixel};
 use super::pixel::{Edge, Hit, Known, Pixel};
 use super::spare::Scratch;
 use super::task::{Asked, Task};
+use crate::eval::Occupancy;
 use crate::geom::{Beam, Fan};
 use crate::shadow::Receiver;
 use crate::trace::{
@@ -72,19 +73,20 @@ struct Primary<'a> {
 /// A ray and what it meets; the number is the asker's.
 type Met = (usize, Beam, Meeting);
 
-/// Primary visibility of the block at `(column, row)`, clipped to the picture; what is given is not looked for.
+/// Primary visibility of the block at `(column, row)`, clipped to the picture; what is given is not looked for. And how full its
+/// batches were.
 pub(super) fn primary(
     task: &Task,
     column: usize,
     row: usize,
     given: Option<&Given>,
     scratch: &mut Scratch,
-) -> Vec<Pixel> {
+) -> (Vec<Pixel>, Occupancy) {
     let mut pass = Primary { task, surfaces: task.surfaces(), given, scratch };
     let whole = (column, row, BLOCK);
     let mut out: Vec<Pixel> = indices(task, whole).filter_map(|index| pass.taken(index)).collect();
     if pass.all_given(whole) {
-        return out;
+        return (out, Occupancy::default());
     }
     let nodes = pass.divide(whole);
     let mut sights = pass.centres(&nodes);
@@ -92,7 +94,7 @@ pub(super) fn primary(
     pass.corners(&mut sights);
     pass.edges(&mut sights);
     out.extend(in_order(task, &nodes, sights).into_iter().filter(|pixel| !is_given(given, pixel.index)));
-    out
+    (out, scratch.work.take_occupancy())
 }
 
 /// Whether all of a pixel is given.

@@ -20,6 +20,8 @@ pub trait Kernel<V: Vector>: Copy {
     fn mul(self, o: Self) -> (Self, V::Mask);
     /// `a^2`.
     fn sqr(self) -> (Self, V::Mask);
+    /// `a^n`, 3 <= n <= 8.
+    fn power(self, n: u32) -> (Self, V::Mask);
     /// `p + t d`.
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask);
 }
@@ -125,13 +127,34 @@ impl<V: Vector, const N: usize> AffineOf<V, N> {
         Self::sealed(self.c.mul(self.c).add(h), coefficients!(i => k.mul(self.a[i])), e, size)
     }
 
+    /// Times an exact number that is not negative.
     #[inline(always)]
-    fn doubled(self) -> Self {
-        let two = V::splat(2.0);
-        // mul_f64(2.0)
-        let (c, a, t) = (self.c.mul(two), coefficients!(i => self.a[i].mul(two)), self.e.mul(two));
+    fn scaled(self, k: f64) -> Self {
+        let k = V::splat(k);
+        let (c, a, t) = (self.c.mul(k), coefficients!(i => self.a[i].mul(k)), self.e.mul(k));
         let w = Self::and_magnitudes(&a, c.abs().add(t));
         Self::sealed(c, a, t.add(V::splat(4.0 * U).mul(w)).add(V::splat(TINY)), w)
+    }
+
+    /// `self^n` by products, n >= 2.
+    #[inline(always)]
+    fn product(self, n: u32) -> Self {
+        let (mut p, mut bit) = (self, n.ilog2());
+        while bit > 0 {
+            bit -= 1;
+            p = p.square();
+            if n >> bit & 1 == 1 {
+                p = p.times(self);
+            }
+        }
+        p
+    }
+
+    /// Whether the range is so narrow that the scalar operator takes the product.
+    #[inline(always)]
+    fn narrow(self, n: u32) -> V::Mask {
+        let radius = Self::and_magnitudes(&self.a, self.e).mul(V::splat(1.0 + (2 * N + 4) as f64 * U));
+        V::splat(f64::from(n)).mul(radius).le(V::splat(0.5).mul(self.c.abs()))
     }
 
     /// `self` plus a number known by centre and radius.
@@ -180,6 +203,10 @@ impl<V: Vector, const N: usize> Kernel<V> for AffineOf<V, N> {
         (self.square(), V::always())
     }
     #[inline(always)]
+    fn power(self, n: u32) -> (Self, V::Mask) {
+        (self.product(n), self.narrow(n))
+    }
+    #[inline(always)]
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask) {
         (t.times(d).shifted(p.c, p.e), V::always())
     }
@@ -221,8 +248,14 @@ impl<V: Vector, const N: usize> Kernel<V> for DualOf<V, N> {
     }
     #[inline(always)]
     fn sqr(self) -> (Self, V::Mask) {
-        let derivative = self.value.times(self.derivative).doubled();
+        let derivative = self.value.times(self.derivative).scaled(2.0);
         (Self { value: self.value.square(), derivative }, V::always())
+    }
+    /// `n f^(n-1) f'`; what is narrow enough for n is for n - 1.
+    #[inline(always)]
+    fn power(self, n: u32) -> (Self, V::Mask) {
+        let derivative = self.value.product(n - 1).scaled(f64::from(n)).times(self.derivative);
+        (Self { value: self.value.product(n), derivative }, self.value.narrow(n))
     }
     #[inline(always)]
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask) {
@@ -262,39 +295,44 @@ impl<V: Vector> IntervalOf<V> {
         (value, finite)
     }
 
-    /// The scalar operator picks the factors by signs: the same ones here, the second pair where both intervals hold numbers of both
-    /// signs.
+    /// The scalar operator picks the extreme corners by signs. They are the least and the largest of all four, also rounded, as
+    /// rounding is monotone; and so is the step outward, which leads to the neighbouring float there.
     #[inline(always)]
     fn times(self, o: Self) -> (Self, V::Mask) {
-        let (a, b, zero) = (self, o, V::splat(0.0));
-        // a >= 0, else a <= 0, else b >= 0, else b <= 0, else neither.
-        let (up, down) = (zero.le(a.lo), a.hi.le(zero));
-        let (lo_up, hi_up, hi_down) = (zero.le(b.lo), zero.le(b.hi), b.hi.le(zero));
-        // lo = x_lo y_lo and x_lo2 y_lo2, the smaller; hi likewise.
-        let x_lo = V::select(
-            up,
-            V::select(lo_up, a.lo, a.hi),
-            V::select(down, V::select(hi_up, a.lo, a.hi), V::select(lo_up, a.lo, V::select(hi_down, a.hi, a.lo))),
-        );
-        let y_lo = V::select(up, b.lo, V::select(down, b.hi, V::select(lo_up, b.hi, V::select(hi_down, b.lo, b.hi))));
-        let x_hi = V::select(
-            up,
-            V::select(hi_up, a.hi, a.lo),
-            V::select(down, V::select(lo_up, a.hi, a.lo), V::select(lo_up, a.hi, a.lo)),
-        );
-        let y_hi = V::select(up, b.hi, V::select(down, b.lo, V::select(lo_up, b.hi, b.lo)));
-        let (lo, hi) = (x_lo.mul(y_lo), x_hi.mul(y_hi));
-        // Where neither has one sign: a.hi b.lo, and a.hi b.hi.
-        let (lo2, hi2) = (a.hi.mul(b.lo), a.hi.mul(b.hi));
-        let mixed = V::both(V::both(a.lo.lt(zero), zero.lt(a.hi)), V::both(b.lo.lt(zero), zero.lt(b.hi)));
-        let (lo, hi) = (lo.sub(step(lo)), hi.add(step(hi)));
-        let (lo2, hi2) = (lo2.sub(step(lo2)), hi2.add(step(hi2)));
-        let value = Self { lo: V::select(mixed, lo.lesser(lo2), lo), hi: V::select(mixed, hi.greater(hi2), hi) };
+        let (p, q, r, s) = (self.lo.mul(o.lo), self.lo.mul(o.hi), self.hi.mul(o.lo), self.hi.mul(o.hi));
+        let (lo, hi) = (p.lesser(q).lesser(r.lesser(s)), p.greater(q).greater(r.greater(s)));
+        let value = Self { lo: lo.sub(step(lo)), hi: hi.add(step(hi)) };
+        let proper = V::both(self.moderate(), o.moderate());
+        if V::all(proper) {
+            return (value, proper);
+        }
         // 0 times anything bounded is [+0, -0], as it is of the scalar operator.
-        let none = V::either(self.is_zero(), o.is_zero());
+        let (none, zero) = (V::either(self.is_zero(), o.is_zero()), V::splat(0.0));
         let value = Self { lo: V::select(none, zero, value.lo), hi: V::select(none, zero.neg(), value.hi) };
-        let bounded = V::both(self.is_zero_or_moderate(), o.is_zero_or_moderate());
-        (value, bounded)
+        (value, V::both(self.is_zero_or_moderate(), o.is_zero_or_moderate()))
+    }
+
+    /// The power of numbers that are not negative and moderate, from below and from above: the chains of products of the scalar
+    /// one.
+    #[inline(always)]
+    fn chain(x: V, n: u32, up: bool) -> V {
+        let (mut square, mut rest, mut product, mut begun) = (x, n, x, false);
+        loop {
+            if rest & 1 == 1 {
+                product = if begun { Self::rounded(product.mul(square), up) } else { square };
+                begun = true;
+            }
+            rest >>= 1;
+            if rest == 0 {
+                return product;
+            }
+            square = Self::rounded(square.mul(square), up);
+        }
+    }
+
+    #[inline(always)]
+    fn rounded(r: V, up: bool) -> V {
+        if up { r.add(step(r)) } else { r.sub(step(r)) }
     }
 
     /// Just 0.
@@ -312,7 +350,13 @@ impl<V: Vector> IntervalOf<V> {
     /// Ends whose products are ordinary numbers. No empty lane, none with a NaN.
     #[inline(always)]
     fn moderate(self) -> V::Mask {
-        let (small, large) = (V::splat(1e-140), V::splat(1e140));
+        self.within(1e-140, 1e140)
+    }
+
+    /// Both ends of a size between these.
+    #[inline(always)]
+    fn within(self, small: f64, large: f64) -> V::Mask {
+        let (small, large) = (V::splat(small), V::splat(large));
         let fits = V::both(self.lo.abs().lt(large), self.hi.abs().lt(large));
         V::both(fits, V::both(small.lt(self.lo.abs()), small.lt(self.hi.abs())))
     }
@@ -353,6 +397,25 @@ impl<V: Vector> Kernel<V> for IntervalOf<V> {
         let (l, h) = (near.mul(near), far.mul(far));
         let value = Self { lo: V::select(across, zero, l.sub(step(l))), hi: h.add(step(h)) };
         (value, self.moderate())
+    }
+    #[inline(always)]
+    fn power(self, n: u32) -> (Self, V::Mask) {
+        let (lo, hi, zero) = (self.lo.abs(), self.hi.abs(), V::splat(0.0));
+        let value = if n.is_multiple_of(2) {
+            let across = V::both(self.lo.le(zero), zero.le(self.hi));
+            let least = Self::chain(lo.lesser(hi), n, false);
+            Self { lo: V::select(across, zero, least), hi: Self::chain(lo.greater(hi), n, true) }
+        } else {
+            // Odd and increasing.
+            let lo_negative = Self::chain(lo, n, true).neg();
+            let hi_negative = Self::chain(hi, n, false).neg();
+            Self {
+                lo: V::select(self.lo.lt(zero), lo_negative, Self::chain(lo, n, false)),
+                hi: V::select(self.hi.lt(zero), hi_negative, Self::chain(hi, n, true)),
+            }
+        };
+        // The eighth power of these is moderate.
+        (value, self.within(1e-17, 1e17))
     }
     #[inline(always)]
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask) {

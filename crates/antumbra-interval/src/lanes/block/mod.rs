@@ -19,7 +19,8 @@ use super::Level;
 use crate::Interval;
 use crate::affine::{Affine, Dual};
 use kernels::{AffineOf, DualOf, IntervalOf, Kernel};
-use vector::{Eight, Plain, Vector, WIDTH};
+pub use vector::WIDTH;
+use vector::{Eight, Plain, Vector};
 
 /// Most lanes of a block.
 pub const MOST: usize = 64;
@@ -55,6 +56,7 @@ struct Act {
 #[derive(Clone, Copy, Debug)]
 enum Operation {
     Ring(Ring),
+    Power(u32),
     Coordinate,
 }
 
@@ -69,6 +71,9 @@ pub trait Packed: Copy + sealed::Sealed {
     /// The scalar operator.
     #[must_use]
     fn ring(op: Ring, a: Self, b: Self) -> Self;
+    /// The scalar operator `a^n`.
+    #[must_use]
+    fn power(self, n: i32) -> Self;
     /// A coordinate `p + t d` of a point on a ray; for a [`Dual`] with the derivative `d` by t.
     #[must_use]
     fn coordinate(t: Self, d: Self, p: Self) -> Self;
@@ -120,6 +125,10 @@ impl Packed for Interval {
     }
     ring!();
     #[inline]
+    fn power(self, n: i32) -> Self {
+        self.powi(n)
+    }
+    #[inline]
     fn coordinate(t: Self, d: Self, p: Self) -> Self {
         p + t * d
     }
@@ -140,6 +149,10 @@ impl<const N: usize> Packed for Affine<N> {
         Self { c: of(0), e: of(1), a: std::array::from_fn(|i| of(i + 2)) }
     }
     ring!();
+    #[inline]
+    fn power(self, n: i32) -> Self {
+        self.powi(n)
+    }
     /// `p` is a number (its coefficients are 0), known by centre and radius.
     #[inline]
     fn coordinate(t: Self, d: Self, p: Self) -> Self {
@@ -159,6 +172,10 @@ impl<const N: usize> Packed for Dual<N> {
         Self { value: Affine::from_components(of), derivative }
     }
     ring!();
+    #[inline]
+    fn power(self, n: i32) -> Self {
+        self.powi(n)
+    }
     #[inline]
     fn coordinate(t: Self, d: Self, p: Self) -> Self {
         Self { value: Affine::coordinate(t.value, d.value, p.value), derivative: d.value }
@@ -214,13 +231,20 @@ impl<F: Packed> Block<F> {
         }
     }
 
-    /// Writes the first components of one lane; the others hold anything. Panics if there are too many.
+    /// Writes all lanes of a slot, or the first components of them: the others hold anything. The last lane is repeated up to the
+    /// end of its vector. Panics if `G` has more components.
     #[inline]
-    pub fn set_first<G: Packed>(&mut self, slot: usize, lane: usize, x: &G) {
-        let (first, k) = self.place(slot, lane);
-        let part = &mut self.memory[first..first + F::COMPONENTS][..G::COMPONENTS];
-        for (i, vector) in part.iter_mut().enumerate() {
-            vector.0[k] = x.component(i);
+    pub fn load<G: Packed>(&mut self, slot: usize, lanes: usize, of: impl Fn(usize) -> G) {
+        let size = self.size();
+        let vectors = self.memory[slot * size..][..size].chunks_exact_mut(F::COMPONENTS);
+        for (first, vector) in (0..lanes).step_by(WIDTH).zip(vectors) {
+            let vector = &mut vector[..G::COMPONENTS];
+            for k in 0..WIDTH {
+                let x = of(usize::min(first + k, lanes - 1));
+                for (i, eight) in vector.iter_mut().enumerate() {
+                    eight.0[k] = x.component(i);
+                }
+            }
         }
     }
 
@@ -255,6 +279,15 @@ impl<F: Packed> Block<F> {
     #[inline]
     pub fn ring(&mut self, level: Level, op: Ring, out: usize, a: usize, b: usize) {
         self.act(level, Operation::Ring(op), out, [a, b, b]);
+    }
+
+    /// `slot[out] = slot[a]^n` in every lane: by vectors for n from 3 to 8, else lane by lane.
+    #[inline]
+    pub fn power(&mut self, level: Level, lanes: usize, n: i32, out: usize, a: usize) {
+        match n {
+            3..=8 => self.act(level, Operation::Power(n as u32), out, [a; 3]),
+            _ => self.map(lanes, out, a, |x| x.power(n)),
+        }
     }
 
     /// `slot[out] = p + t d` in every lane: [`Packed::coordinate`].
@@ -313,7 +346,7 @@ fn act<V: Vector, F: Packed>(act: Act, memory: &mut [Eight], vectors: usize) {
                 if proper == u8::MAX {
                     value.store(&mut memory[act.out + at..][..F::COMPONENTS]);
                 } else {
-                    let again = again::<F>(act, memory, at);
+                    let again = again::<F>(act, memory, at, !proper);
                     value.store(&mut memory[act.out + at..][..F::COMPONENTS]);
                     replace(&mut memory[act.out + at..][..F::COMPONENTS], !proper, &again);
                 }
@@ -326,18 +359,23 @@ fn act<V: Vector, F: Packed>(act: Act, memory: &mut [Eight], vectors: usize) {
         Operation::Ring(Ring::Sub) => each!(x = 0, y = 1 => x.sub(y)),
         Operation::Ring(Ring::Mul) => each!(x = 0, y = 1 => x.mul(y)),
         Operation::Ring(Ring::Sqr) => each!(x = 0 => x.sqr()),
+        Operation::Power(n) => each!(x = 0 => x.power(n)),
         Operation::Coordinate => each!(t = 0, d = 1, p = 2 => Kernel::coordinate(t, d, p)),
     }
 }
 
-/// The operation on the lanes of one vector, by the scalar operator.
+/// The operation on the chosen lanes of one vector, by the scalar operator; of the others, an operand.
 #[cold]
 #[inline(never)]
-fn again<F: Packed>(act: Act, memory: &[Eight], at: usize) -> [F; WIDTH] {
+fn again<F: Packed>(act: Act, memory: &[Eight], at: usize, chosen: u8) -> [F; WIDTH] {
     std::array::from_fn(|k| {
         let operand = |j: usize| F::from_components(|i| memory[act.operands[j] + at + i].0[k]);
+        if chosen >> k & 1 == 0 {
+            return operand(0);
+        }
         match act.op {
             Operation::Ring(op) => F::ring(op, operand(0), operand(1)),
+            Operation::Power(n) => operand(0).power(n as i32),
             Operation::Coordinate => F::coordinate(operand(0), operand(1), operand(2)),
         }
     })

@@ -3,8 +3,8 @@
 //! Every operation is the IEEE 754 one in round to nearest on each of the eight, and nothing is contracted, so a formula
 //! written with it gives the same bits on every level, and those of the same formula on single numbers.
 
-/// Numbers of one vector.
-pub(super) const WIDTH: usize = 8;
+/// Lanes of one vector.
+pub const WIDTH: usize = 8;
 
 /// Eight numbers in memory, aligned for every level.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -50,16 +50,10 @@ pub trait Vector: Copy {
     fn all(mask: Self::Mask) -> bool {
         Self::bits(mask) == u8::MAX
     }
-    /// `x > y ? x : y`.
-    #[inline(always)]
-    fn greater(self, o: Self) -> Self {
-        Self::select(o.lt(self), self, o)
-    }
-    /// `x < y ? x : y`.
-    #[inline(always)]
-    fn lesser(self, o: Self) -> Self {
-        Self::select(self.lt(o), self, o)
-    }
+    /// `self > o ? self : o`.
+    fn greater(self, o: Self) -> Self;
+    /// `self < o ? self : o`.
+    fn lesser(self, o: Self) -> Self;
 }
 
 /// Plain Rust.
@@ -111,6 +105,14 @@ impl Vector for Plain {
     #[inline(always)]
     fn neg(self) -> Self {
         Self(each!(i => -self.0[i]))
+    }
+    #[inline(always)]
+    fn greater(self, o: Self) -> Self {
+        Self(each!(i => if self.0[i] > o.0[i] { self.0[i] } else { o.0[i] }))
+    }
+    #[inline(always)]
+    fn lesser(self, o: Self) -> Self {
+        Self(each!(i => if self.0[i] < o.0[i] { self.0[i] } else { o.0[i] }))
     }
     #[inline(always)]
     fn lt(self, o: Self) -> Self::Mask {

@@ -6,10 +6,10 @@ use super::vector::{Eight, Vector};
 use super::{Act, Packed, act};
 use std::arch::x86_64::{
     __m256d, __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd,
-    _mm256_blendv_pd, _mm256_cmp_pd, _mm256_load_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_or_pd, _mm256_set1_pd,
-    _mm256_store_pd, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd, _mm512_add_pd, _mm512_castpd_si512,
-    _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_load_pd, _mm512_mask_blend_pd, _mm512_mul_pd, _mm512_set1_epi64,
-    _mm512_set1_pd, _mm512_store_pd, _mm512_sub_pd, _mm512_xor_epi64,
+    _mm256_blendv_pd, _mm256_cmp_pd, _mm256_load_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
+    _mm256_or_pd, _mm256_set1_pd, _mm256_store_pd, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd, _mm512_add_pd,
+    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_load_pd, _mm512_mask_blend_pd, _mm512_max_pd,
+    _mm512_min_pd, _mm512_mul_pd, _mm512_set1_epi64, _mm512_set1_pd, _mm512_store_pd, _mm512_sub_pd, _mm512_xor_epi64,
 };
 
 /// Proof that this processor and operating system support AVX2.
@@ -70,6 +70,15 @@ impl Vector for V512 {
     fn neg(self) -> Self {
         // XOR of doubles proper would need AVX-512DQ.
         Self(unsafe { _mm512_castsi512_pd(_mm512_xor_epi64(_mm512_castpd_si512(self.0), _mm512_set1_epi64(i64::MIN))) })
+    }
+    // The instructions return the second operand where either is NaN, or both are zeros: the very selection wanted.
+    #[inline(always)]
+    fn greater(self, o: Self) -> Self {
+        Self(unsafe { _mm512_max_pd(self.0, o.0) })
+    }
+    #[inline(always)]
+    fn lesser(self, o: Self) -> Self {
+        Self(unsafe { _mm512_min_pd(self.0, o.0) })
     }
     #[inline(always)]
     fn lt(self, o: Self) -> __mmask8 {
@@ -149,6 +158,14 @@ impl Vector for V256 {
     fn neg(self) -> Self {
         let sign = Self::splat(-0.0);
         Self(halves!(_mm256_xor_pd self.0, sign.0))
+    }
+    #[inline(always)]
+    fn greater(self, o: Self) -> Self {
+        Self(halves!(_mm256_max_pd self.0, o.0))
+    }
+    #[inline(always)]
+    fn lesser(self, o: Self) -> Self {
+        Self(halves!(_mm256_min_pd self.0, o.0))
     }
     #[inline(always)]
     fn lt(self, o: Self) -> Self::Mask {
