@@ -1,10 +1,13 @@
 //! One rectangle of a light, seen from one hit, to second order.
-use super::policy::{self, Plan, TRIES, Trial, between};
-use super::slab::{Cell, Kind, Slab, State, merged};
+use super::policy::{self, Nearest, Plan, Trial, between};
+use super::slab::{Cell, Convexity, Kind, Slab, State, merged};
 use crate::eval::Workspace;
+use crate::geom::Sheet;
 use crate::geom::strips::{self, Areas, Curve, areas};
 use crate::trace::Cost;
+use antumbra_interval::Interval;
 use antumbra_interval::quadratic::{Eliminated, Quadratic};
+use antumbra_interval::round::{div_up, mul_down, mul_up};
 use std::ops::Range;
 
 /// What is known of a cell.
@@ -76,7 +79,12 @@ pub(super) fn look(
     let begin = open.len();
     while let Some(slab) = s.stack.pop() {
         let Some(slab) = cell.clipped(&slab) else { continue };
-        let settled = if slab.state != State::Outer && !cell.shape.short(cell.extent(&slab)) {
+        let search = match slab.state {
+            State::Outer => false,
+            State::Open => !cell.shape.short(cell.extent(&slab)),
+            State::Convex(_) => true,
+        };
+        let settled = if search {
             narrow(cell, &slab, open, s, work, cost)
         } else {
             plain(cell, &slab, open, s, work, cost)
@@ -141,16 +149,11 @@ fn plain(
     Settled::Slab
 }
 
-/// A long slab: finds the least value, and looks at a thin slab around it.
+/// A long slab: finds the least value along each ray.
 ///
 /// The slab is covered by an outer slab below, a core, and an outer slab above, which share their sheets: so every parameter
-/// is in one of them, wherever the sheets are.
-///
-/// **Lemma (core).** Let the function be convex in t in the core, on every ray of the cell, and let the main slab
-/// `[m_0, m_1]`, `m_0 <= m_1`, lie in the core. Let there be on every ray a parameter `t_U` of the main slab with a value at
-/// most `U + e`. If at an end that is not the core's the value is above `U + e`, then on every ray all values of the core
-/// beyond that end are above it too (a convex function that has risen from `t_U` to the end goes on rising). So the least
-/// value over the core is that over the main slab, and if it is positive the core is free.
+/// is in one of them, wherever the sheets are. If the function is proved convex in the core, one sheet of it bounds the
+/// least value.
 fn narrow(
     cell: &Cell<'_>,
     slab: &Slab,
@@ -160,11 +163,12 @@ fn narrow(
     cost: &mut Cost,
 ) -> Settled {
     let part = cell.part;
-    let searched = match slab.state {
-        State::Convex(kind) => kind,
-        _ => cell.kind(slab),
+    let (searched, start) = match slab.state {
+        State::Convex(known) => (known.kind, Some(known.least_at)),
+        _ => (cell.kind(slab), None),
     };
-    let mut plan = cell.shape.plan(&slab.lo, &slab.hi, |at, t| cell.about(slab.surface, searched, at, t, work));
+    let about = |at, t| cell.about(slab.surface, searched, at, t, work);
+    let plan = cell.shape.plan(&slab.lo, &slab.hi, start.as_ref(), about);
     if !plan.sheet(1.0).is_finite() {
         return plain(cell, &Slab { state: State::Outer, ..*slab }, open, s, work, cost);
     }
@@ -187,33 +191,28 @@ fn narrow(
         }
     };
     let convex = match slab.state {
-        State::Convex(kind) => Some(kind),
+        State::Convex(known) => Some(Convexity { least_at: plan.sheet(0.0), ..known }),
         _ => {
             let kind = cell.kind(&core);
-            cell.certainly_convex(&core, kind, work, cost).then_some(kind)
+            let bend = cell.bend(&core, kind, work, cost);
+            bend.map(|bend| Convexity { kind, bend, least_at: plan.sheet(0.0) })
         }
     };
-    if let Some(kind) = convex {
-        for _ in 0..TRIES {
-            let (main, [cut_lo, cut_hi]) = main_slab(cell, &core, &plan);
-            let ordered = !(cut_lo || cut_hi) || main.lo.certainly_at_most(&main.hi, part);
-            let form = cell.form(&main, kind, work, cost);
-            let least = form.eliminate();
-            let hides = cell.inside(&main);
-            if hides && least.certainly_negative_somewhere() {
-                return Settled::DarkCell;
+    if let Some(convex) = convex {
+        let (level, beyond) = level(cell, &core, &plan);
+        let least = cell.form(&level, convex.kind, work, cost).eliminate();
+        let hides = cell.inside(&level);
+        if hides && least.certainly_negative_somewhere() {
+            return Settled::DarkCell;
+        }
+        let fall = fall(beyond, cell.slope(&level, convex.kind, work, cost), convex.bend);
+        if fall.is_finite() {
+            let least = least.lowered(fall);
+            if !least.certainly_positive() {
+                open.push(Slab { state: State::Convex(convex), ..core });
+                s.constraints.push(constraint(&least, hides, convex.kind, cell.extent(&level).middle()));
             }
-            let rises = |cut: bool, s: f64| !cut || rises_beyond(&form, &least, s);
-            if ordered && rises(cut_lo, -1.0) && rises(cut_hi, 1.0) {
-                if !least.certainly_positive() {
-                    open.push(Slab { state: State::Convex(kind), ..core });
-                    s.constraints.push(constraint(&least, hides, kind, cell.extent(&main).middle()));
-                }
-                return Settled::Slab;
-            }
-            if !plan.thicker(&form) {
-                break;
-            }
+            return Settled::Slab;
         }
     }
     // The core in up to three parts, which share their sheets.
@@ -228,6 +227,48 @@ fn narrow(
     Settled::Slab
 }
 
+/// Where the parameters of a slab lie, seen from a sheet in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Beyond {
+    Above,
+    Below,
+    Both,
+}
+
+/// The sheet of a core nearest to the expected place of the least value, proved to lie in the core on all rays of the cell.
+///
+/// An end of the core does, but where the sheets cross the core may lie on either side of it.
+fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, Beyond) {
+    let expected = plan.sheet(0.0);
+    let proved = |a: &Sheet, b: &Sheet| a.certainly_at_most(b, cell.part);
+    let (sheet, beyond) = match cell.shape.nearest(&core.lo, &expected, &core.hi, plan.margin()) {
+        Nearest::Middle if proved(&core.lo, &expected) && proved(&expected, &core.hi) => (expected, Beyond::Both),
+        Nearest::Lower => (core.lo, if proved(&core.lo, &core.hi) { Beyond::Above } else { Beyond::Both }),
+        _ => (core.hi, if proved(&core.lo, &core.hi) { Beyond::Below } else { Beyond::Both }),
+    };
+    (Slab { lo: sheet, hi: sheet, state: State::Outer, ..*core }, beyond)
+}
+
+/// How far below its value on a sheet the least value over a convex slab may lie.
+///
+/// **Lemma (sheet).** Let `g''/2 >= m >= 0` in the slab, and `t_0` in it. With `d = g'(t_0)` and `x = t - t_0`, Taylor's
+/// formula gives `g(t) >= g(t_0) + d x + m x^2 >= g(t_0) - d^2/(4m)`, and `g(t) >= g(t_0)` where `d x >= 0`.
+fn fall(beyond: Beyond, slope: Interval, bend: f64) -> f64 {
+    let steepness = match beyond {
+        Beyond::Both => slope.magnitude(),
+        Beyond::Above => -slope.lo(),
+        Beyond::Below => slope.hi(),
+    };
+    let four = mul_down(4.0, bend);
+    if steepness <= 0.0 {
+        0.0
+    } else if four > 0.0 {
+        div_up(mul_up(steepness, steepness), four)
+    } else {
+        f64::INFINITY
+    }
+}
+
 /// The main slab, and which of its ends are not the core's: only sheets proved to lie inside of the core are ends of it.
 fn main_slab(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [bool; 2]) {
     let (lo, hi) = (plan.sheet(-1.0), plan.sheet(1.0));
@@ -237,13 +278,6 @@ fn main_slab(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [bool; 2]) {
     let cut_hi = cell.shape.above(&core.hi, &hi, margin) && inside(&hi);
     let (lo, hi) = (if cut_lo { lo } else { core.lo }, if cut_hi { hi } else { core.hi });
     (Slab { lo, hi, state: State::Outer, ..*core }, [cut_lo, cut_hi])
-}
-
-/// Whether on every ray the function at the end `s` of the slab is above its upper bound `U + e` inside:
-/// `Q(s) - e > U + e`, with the error of the bound, which is at least that of the form.
-fn rises_beyond(form: &Quadratic, least: &Eliminated, s: f64) -> bool {
-    let twice = antumbra_interval::round::add_up(least.error, least.error);
-    form.rise_at(s, &least.upper) > twice
 }
 
 /// Whether a slab that hides on some ray lies beside another that hides there too: `g >= k U + k e > k g'(t_U)` wherever

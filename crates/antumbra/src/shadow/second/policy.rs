@@ -5,7 +5,6 @@ use crate::eval::PointJet;
 use crate::geom::strips::Band;
 use crate::geom::{Rect, Sheet, Vec3};
 use antumbra_interval::Interval;
-use antumbra_interval::quadratic::Quadratic;
 
 /// Half thickness of the main slab, in widths of the cell.
 const MAIN: f64 = 1.0;
@@ -30,8 +29,6 @@ const STEPS: usize = 7;
 const CERTAIN: u32 = 9;
 /// Evaluations for one hit after which planes get their chance, at a tolerance of 1/255.
 const FAIR: f64 = 4000.0;
-/// Thickenings of the main slab before convexity is given up.
-pub(super) const TRIES: usize = 3;
 
 /// Sizes of a cell, in plain numbers.
 pub(super) struct Shape {
@@ -101,10 +98,19 @@ impl Shape {
 
     /// About the place of the least value between two sheets, and how it moves across the cell. `about` gives values on
     /// rays.
-    pub(super) fn plan(&self, lo: &Sheet, hi: &Sheet, mut about: impl FnMut([f64; 2], f64) -> PointJet) -> Plan {
+    pub(super) fn plan(
+        &self,
+        lo: &Sheet,
+        hi: &Sheet,
+        start: Option<&Sheet>,
+        mut about: impl FnMut([f64; 2], f64) -> PointJet,
+    ) -> Plan {
         let Extent { lo: first, hi: last } = self.extent(lo, hi);
         let length = last - first;
         let (mut t, mut a, mut b) = (0.5 * (first + last), first, last);
+        if let Some(sheet) = start {
+            t = at(sheet, self.centre).max(first).min(last);
+        }
         let mut g = PointJet::default();
         let mut found = false;
         for _ in 0..STEPS {
@@ -170,6 +176,18 @@ impl Shape {
         begin <= end + 1e-3 * (at(hi, self.centre) - begin)
     }
 
+    /// Which of the sheets is nearest to the one in the middle, up to a margin.
+    pub(super) fn nearest(&self, lo: &Sheet, middle: &Sheet, hi: &Sheet, margin: f64) -> Nearest {
+        let (lo, t, hi) = (self.place(lo), self.place(middle), self.place(hi));
+        if lo + margin < t && t < hi - margin {
+            Nearest::Middle
+        } else if t - lo < hi - t {
+            Nearest::Lower
+        } else {
+            Nearest::Upper
+        }
+    }
+
     /// For sorting along the middle ray.
     pub(super) fn place(&self, sheet: &Sheet) -> f64 {
         at(sheet, self.centre)
@@ -186,6 +204,14 @@ impl Shape {
             [true, true]
         }
     }
+}
+
+/// One of three sheets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Nearest {
+    Lower,
+    Middle,
+    Upper,
 }
 
 /// Where the least value of a slab is expected: a sheet, and half a thickness around it.
@@ -212,13 +238,6 @@ impl Plan {
 
     pub(super) fn core(&self) -> [Sheet; 2] {
         [self.sheet(-CORE), self.sheet(CORE)]
-    }
-
-    /// A thicker main slab, so that at its ends the parabola rises above the error.
-    pub(super) fn thicker(&mut self, form: &Quadratic) -> bool {
-        let bend = form.quadratic()[0];
-        self.width *= (5.0 * form.error() / bend).sqrt().clamp(1.4, 2.5);
-        bend > 0.0 && self.width.is_finite()
     }
 }
 
