@@ -1,5 +1,5 @@
 //! One rectangle of a light, seen from one hit, to second order.
-use super::policy::{self, Nearest, Plan, Trial, between};
+use super::policy::{self, CORES, Nearest, Plan, Trial, between};
 use super::slab::{Cell, Convexity, Kind, Slab, State, merged};
 use crate::eval::Workspace;
 use crate::geom::Sheet;
@@ -34,18 +34,15 @@ pub(super) struct Scratch {
     constraints: Vec<Constraint>,
     curves: Vec<Curve>,
     areas: strips::Scratch,
-    /// Of long and of short slabs.
+    /// Plain intervals for long and for short slabs.
     trials: [Trial; 2],
+    /// Convexity of cores of different sizes.
+    cores: [Trial; CORES.len()],
     /// Evaluations before this cell.
     before: u64,
 }
 
 impl Scratch {
-    /// Another hit: what was learnt of the last one is forgotten, so that results do not depend on the order of hits.
-    pub(super) fn forget(&mut self) {
-        self.trials = Default::default();
-    }
-
     /// What the last open cell said.
     pub(super) fn curves(&self) -> &[Curve] {
         &self.curves
@@ -144,7 +141,7 @@ fn plain(
             return Settled::Slab;
         }
     }
-    open.push(Slab { state: State::Open, ..*slab });
+    open.push(*slab);
     s.constraints.push(constraint(&least, hides, kind, extent.middle()));
     Settled::Slab
 }
@@ -172,30 +169,20 @@ fn narrow(
     if !plan.sheet(1.0).is_finite() {
         return plain(cell, &Slab { state: State::Outer, ..*slab }, open, s, work, cost);
     }
-    // A range that is proved convex is never enlarged: its own sheets stay.
-    let core = match slab.state {
-        State::Convex(_) => *slab,
+    let least_at = plan.sheet(0.0);
+    let (core, convex) = match slab.state {
+        // A range that is proved convex is never enlarged: its own sheets stay.
+        State::Convex(known) => (*slab, Some(Convexity { least_at, ..known })),
         _ => {
-            let (below, above) = (slab.lo.below(plan.slopes(), part), slab.hi.above(plan.slopes(), part));
-            let [lo, hi] = plan.core();
-            let cut_lo = cell.shape.above(&lo, &below, plan.width);
-            let cut_hi = cell.shape.above(&above, &hi, plan.width);
-            let (lo, hi) = (if cut_lo { lo } else { below }, if cut_hi { hi } else { above });
-            if cut_hi {
-                s.stack.push(Slab { lo: hi, hi: above, state: State::Outer, ..*slab });
+            let whole = Slab { lo: slab.lo.below(plan.slopes(), part), hi: slab.hi.above(plan.slopes(), part), ..*slab };
+            let (core, bend) = core(cell, &whole, &plan, s, work, cost);
+            if core.hi != whole.hi {
+                s.stack.push(Slab { lo: core.hi, hi: whole.hi, state: State::Outer, ..*slab });
             }
-            if cut_lo {
-                s.stack.push(Slab { lo: below, hi: lo, state: State::Outer, ..*slab });
+            if core.lo != whole.lo {
+                s.stack.push(Slab { lo: whole.lo, hi: core.lo, state: State::Outer, ..*slab });
             }
-            Slab { lo, hi, ..*slab }
-        }
-    };
-    let convex = match slab.state {
-        State::Convex(known) => Some(Convexity { least_at: plan.sheet(0.0), ..known }),
-        _ => {
-            let kind = cell.kind(&core);
-            let bend = cell.bend(&core, kind, work, cost);
-            bend.map(|bend| Convexity { kind, bend, least_at: plan.sheet(0.0) })
+            (core, bend.map(|(kind, bend)| Convexity { kind, bend, least_at }))
         }
     };
     if let Some(convex) = convex {
@@ -225,6 +212,43 @@ fn narrow(
     }
     s.stack.push(Slab { state: State::Outer, ..main });
     Settled::Slab
+}
+
+/// The widest part around the expected least value that is proved convex enough, with a lower bound of `g''/2` there; else the
+/// narrowest one that was tried. Its ends are those of the whole slab, or sheets parallel to them.
+fn core(
+    cell: &Cell<'_>,
+    whole: &Slab,
+    plan: &Plan,
+    s: &mut Scratch,
+    work: &mut Workspace,
+    cost: &mut Cost,
+) -> (Slab, Option<(Kind, f64)>) {
+    let mut last = None;
+    for (k, size) in CORES.into_iter().enumerate() {
+        let part = match size {
+            None => *whole,
+            Some(size) => {
+                let [lo, hi] = [-size, size].map(|widths| plan.sheet(widths));
+                let cut_lo = cell.shape.above(&lo, &whole.lo, plan.width);
+                let cut_hi = cell.shape.above(&whole.hi, &hi, plan.width);
+                let (lo, hi) = (if cut_lo { lo } else { whole.lo }, if cut_hi { hi } else { whole.hi });
+                Slab { lo, hi, ..*whole }
+            }
+        };
+        if last.is_some_and(|(before, _)| before == part) || (k + 1 < CORES.len() && !s.cores[k].worth()) {
+            continue;
+        }
+        let kind = cell.kind(&part);
+        let bend = cell.bend(&part, kind, work, cost);
+        let enough = bend.is_some_and(|bend| plan.bends_enough(bend));
+        s.cores[k].tell(enough);
+        last = Some((part, bend.map(|bend| (kind, bend))));
+        if enough {
+            break;
+        }
+    }
+    last.unwrap_or((*whole, None))
 }
 
 /// Where the parameters of a slab lie, seen from a sheet in it.
@@ -294,19 +318,21 @@ fn constraint(least: &Eliminated, hides: bool, kind: Kind, t: f64) -> Constraint
     Constraint { curve, kind, t }
 }
 
-/// Joins open slabs of one surface that touch: a larger slab keeps the invariant, and there are fewer.
+/// Joins open slabs of one surface that touch: a larger slab keeps the invariant, and there are fewer. Convex ones stay as they
+/// are; beside them nothing is worth a search.
 fn join(cell: &Cell<'_>, open: &mut Vec<Slab>, begin: usize) {
     let shape = &cell.shape;
     open[begin..].sort_by(|a, b| {
         let order = shape.place(&a.lo).total_cmp(&shape.place(&b.lo));
         a.surface.cmp(&b.surface).then(order)
     });
+    let convex = |slab: &Slab| matches!(slab.state, State::Convex(_));
     let mut last = begin;
     for k in begin + 1..open.len() {
         let (slab, before) = (open[k], open[last]);
         let joint = merged(&before, &slab, cell.part);
         let touch = slab.surface == before.surface && shape.touch(&before.hi, &slab.lo, &slab.hi);
-        if touch && joint.lo.is_finite() && joint.hi.is_finite() {
+        if touch && !convex(&slab) && !convex(&before) && joint.lo.is_finite() && joint.hi.is_finite() {
             open[last] = joint;
         } else {
             last += 1;
@@ -314,4 +340,10 @@ fn join(cell: &Cell<'_>, open: &mut Vec<Slab>, begin: usize) {
         }
     }
     open.truncate(last + 1);
+    for k in begin..open.len() {
+        let beside = |o: &Slab| o.surface == open[k].surface && convex(o);
+        if !convex(&open[k]) && !open[begin..].iter().any(beside) {
+            open[k].state = State::Open;
+        }
+    }
 }

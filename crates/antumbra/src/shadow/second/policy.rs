@@ -8,8 +8,10 @@ use antumbra_interval::Interval;
 
 /// Half thickness of the main slab, in widths of the cell.
 const MAIN: f64 = 1.0;
-/// Half thickness of the core around it, in half thicknesses of the main slab.
-const CORE: f64 = 3.0;
+/// Half thicknesses of cores that may be convex, in widths of the cell; first the whole slab.
+pub(super) const CORES: [Option<f64>; 3] = [None, Some(8.0), Some(3.0)];
+/// A core is taken if its least bend is at least this part of the bend at the least value.
+const BEND: f64 = 0.25;
 /// A slab is short if its half length is at most this many widths.
 const SHORT: f64 = 2.1;
 /// Widths grow along the beam as t, but count at least as at this t.
@@ -162,7 +164,7 @@ impl Shape {
             }
         }
         let k = t - slopes[0] * self.centre[0] - slopes[1] * self.centre[1];
-        Plan { middle: Sheet { k, slopes }, width }
+        Plan { middle: Sheet { k, slopes }, width, bend: g.second }
     }
 
     /// Whether a cut is well inside: above `lo` by a margin at the middle ray.
@@ -219,6 +221,8 @@ pub(super) enum Nearest {
 pub(super) struct Plan {
     middle: Sheet,
     pub(super) width: f64,
+    /// About `g''/2` there.
+    bend: f64,
 }
 
 impl Plan {
@@ -236,8 +240,9 @@ impl Plan {
         0.02 * self.width
     }
 
-    pub(super) fn core(&self) -> [Sheet; 2] {
-        [self.sheet(-CORE), self.sheet(CORE)]
+    /// Whether a core bends enough to tell where its least value is.
+    pub(super) fn bends_enough(&self, bend: f64) -> bool {
+        bend >= BEND * self.bend
     }
 }
 
@@ -316,7 +321,7 @@ pub(super) fn enough(tolerance: f64, area: f64) -> f64 {
     0.1 * tolerance / area
 }
 
-/// Whether plain intervals are worth trying first: as long as they keep succeeding. One for long, one for short slabs.
+/// Whether something that may spare work is worth trying: as long as it keeps succeeding.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Trial {
     asked: u32,

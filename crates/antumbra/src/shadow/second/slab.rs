@@ -236,5 +236,5 @@ pub(super) fn merged(a: &Slab, b: &Slab, part: [Interval; 2]) -> Slab {
     let (below, above) = (b.lo.below(a.lo.slopes, part), b.hi.above(a.hi.slopes, part));
     let lo = if below.k < a.lo.k { below } else { a.lo };
     let hi = if above.k > a.hi.k { above } else { a.hi };
-    Slab { surface: a.surface, lo, hi, state: State::Open }
+    Slab { surface: a.surface, lo, hi, state: State::Outer }
 }
