@@ -276,7 +276,6 @@ pub(super) fn shadows<'a>(
             let mut cost = Cost::default();
             let bracket =
                 visible(&surfaces, receiver, rect, &pieces, task.tolerance, &mut scratch, &mut work, &mut cost);
-            if std::env::var("PXALL").is_ok() { eprintln!("PX {index} {} {} {} {} {}", cost.evaluations, cost.beams, bracket.lo, bracket.hi, pieces.len()); }
             out.push(Light {
                 index,
                 light,
