@@ -7,7 +7,7 @@ use crate::geom::strips::{self, Areas, Curve, areas};
 use crate::trace::Cost;
 use antumbra_interval::Interval;
 use antumbra_interval::quadratic::{Eliminated, Quadratic};
-use antumbra_interval::round::{div_up, greater, lesser, mul_down, mul_up};
+use antumbra_interval::round::{div_up, mul_down, mul_up};
 use std::ops::Range;
 
 /// What is known of a cell.
@@ -190,7 +190,7 @@ fn narrow(
         if hides && least.certainly_negative_somewhere() {
             return Settled::DarkCell;
         }
-        let reach = greater(level.lo.distance(&core.lo, part), level.lo.distance(&core.hi, part));
+        let reach = level.lo.distance(&core.lo, part).max(level.lo.distance(&core.hi, part));
         let fall = fall(beyond, cell.slope(&level, convex.kind, work, cost), convex.bend, reach);
         if fall.is_finite() {
             let least = least.lowered(fall);
@@ -288,7 +288,7 @@ fn fall(beyond: Beyond, slope: Interval, bend: f64, reach: f64) -> f64 {
     }
     let (four, line) = (mul_down(4.0, bend), mul_up(steepness, reach));
     let parabola = if four > 0.0 { div_up(mul_up(steepness, steepness), four) } else { f64::INFINITY };
-    lesser(parabola, line)
+    parabola.min(line)
 }
 
 /// The main slab, and which of its ends are not the core's: only sheets proved to lie inside of the core are ends of it.
