@@ -1,6 +1,6 @@
 //! A hit found again, and its light by sampling.
 use super::double::Double;
-use super::sampler::{Judge, Point, Seen, Shares, camera_ray};
+use super::sampler::{Judge, Point, SAMPLES, Seen, Shares, camera_ray};
 use antumbra::geom::Rect;
 use antumbra::render::Frame;
 use antumbra::scene::Scene;
@@ -35,14 +35,38 @@ pub(crate) fn root(judge: &Judge, p: &Point, d: &Point, [lo, hi]: [f64; 2]) -> D
 }
 
 /// Whether the point `(u, v)` of a light is visible from a point on surface number `own`, whose side is `side`.
-pub(crate) fn sees(judges: &[Judge], own: usize, p: &Point, side: f64, light: &Rect, [u, v]: [f64; 2]) -> Option<bool> {
+pub(crate) fn sees(judges: &[Judge], own: usize, p: &Point, side: f64, light: &Rect, at: [f64; 2]) -> Option<bool> {
+    sees_in(SAMPLES, judges, own, p, side, light, at)
+}
+
+/// The same again, where it matters: grazing rays that pass through a solid for less than a section look free at first.
+pub(crate) fn sees_finely(
+    judges: &[Judge],
+    own: usize,
+    p: &Point,
+    side: f64,
+    light: &Rect,
+    at: [f64; 2],
+) -> Option<bool> {
+    sees_in(64 * SAMPLES, judges, own, p, side, light, at)
+}
+
+fn sees_in(
+    samples: usize,
+    judges: &[Judge],
+    own: usize,
+    p: &Point,
+    side: f64,
+    light: &Rect,
+    [u, v]: [f64; 2],
+) -> Option<bool> {
     let (u, v) = (Double::from(u), Double::from(v));
     let d: Point = std::array::from_fn(|k| {
         Double::from(light.center[k]) + u * light.edge_u[k].into() + v * light.edge_v[k].into() - p[k]
     });
     let mut known = true;
     for (index, judge) in judges.iter().enumerate() {
-        match judge.follow(p, &d, 0.0, 1.0, (index == own).then_some(side)) {
+        match judge.follow_in(samples, p, &d, [0.0, 1.0], (index == own).then_some(side)) {
             Seen::Blocked(_) => return Some(false),
             Seen::Unclear => known = false,
             Seen::Clear => {}

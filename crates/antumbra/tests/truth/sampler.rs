@@ -21,7 +21,7 @@ pub(crate) enum Seen {
 }
 
 /// Sections of equal length into which a ray is cut at first.
-const SAMPLES: usize = 96;
+pub(crate) const SAMPLES: usize = 96;
 /// Values below this share of the greatest one on a ray are computed in twice the precision.
 const NEAR: f64 = 1e-8;
 /// Golden section: the section that stays.
@@ -73,15 +73,27 @@ impl Judge {
     /// Follows `p + t d` from `from` to `to`. `leaving` says that the ray starts on this surface, with f = 0, and on
     /// which side it must leave: then f is looked at from very near on.
     pub(crate) fn follow(&self, p: &Point, d: &Point, from: f64, to: f64, leaving: Option<f64>) -> Seen {
+        self.follow_in(SAMPLES, p, d, [from, to], leaving)
+    }
+
+    /// The same with another number of sections: a passage through a solid that is shorter than one may be missed.
+    pub(crate) fn follow_in(
+        &self,
+        samples: usize,
+        p: &Point,
+        d: &Point,
+        [from, to]: [f64; 2],
+        leaving: Option<f64>,
+    ) -> Seen {
         let Some([lo, hi]) = self.inside(p, d, from, to) else { return Seen::Clear };
         let mut slots = Slots::default();
-        let step = (hi - lo) / SAMPLES as f64;
-        let mut places = Vec::with_capacity(SAMPLES + 32);
+        let step = (hi - lo) / samples as f64;
+        let mut places = Vec::with_capacity(samples + 32);
         if leaving.is_some() {
             // 2^-30 of a step to half of one.
             places.extend((1..=30).rev().map(|k| lo + step * 0.5_f64.powi(k)));
         }
-        places.extend((usize::from(leaving.is_some())..=SAMPLES).map(|k| lo + step * k as f64));
+        places.extend((usize::from(leaving.is_some())..=samples).map(|k| lo + step * k as f64));
         let mut values: Vec<f64> = places.iter().map(|&t| self.value(p, d, t, 0.0, &mut slots)).collect();
         let scale = values.iter().fold(0.0_f64, |m, v| if v.is_finite() { m.max(v.abs()) } else { m });
         for (v, &t) in values.iter_mut().zip(&places) {

@@ -6,8 +6,9 @@
 //!
 //! * **Slabs** between two sheets `t = k + u_slope u + v_slope v`, sheared so that the least value stays in the middle
 //!   ([`slab`]). Over a parallel slab a quadratic form of a polynomial of degree 2 is exact.
-//! * **Core convexity**: once convex in t, a long core needs but one thin slab ([`cell`]).
-//! * **Elimination** of t: bounds of the least value as quadratic polynomials over the light
+//! * **Convex cores**: where the function is proved convex in t, its value and slope on one sheet bound its least value
+//!   ([`cell`]).
+//! * **Elimination** of t elsewhere: bounds of the least value as quadratic polynomials over the light
 //!   ([`antumbra_interval::quadratic`]).
 //! * **Strips**: certified areas beside quadratic curves, and the band that stays unknown ([`crate::geom::strips`]).
 //! * **Cropped subdivision**: a cell is divided along the silhouette, and only the band goes on.
@@ -20,7 +21,7 @@ use super::rectangle::Query;
 use super::visible::{Bracket, Penumbra, Tolerance};
 use crate::eval::Workspace;
 use crate::geom::strips::{Areas, Band, Curve};
-use crate::geom::{Clip, Fan, Sheet};
+use crate::geom::{Fan, Sheet};
 use crate::trace::{Cost, Piece, Surface, certainly_continuous};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
@@ -128,13 +129,9 @@ pub(super) fn fraction(
 ) -> Fraction {
     let Scratch { cell: scratch, slabs, ledger, parts, claims, .. } = s;
     let most = match tolerance.penumbra {
-        Penumbra::Auto => {
-            let cut = query.surfaces.iter().any(|at| at.region == at.clip && at.clip != Clip::Everywhere);
-            cost.evaluations + policy::fair(tolerance.width, cut)
-        }
+        Penumbra::Auto => cost.evaluations + policy::fair(tolerance.width),
         _ => u64::MAX,
     };
-    scratch.forget();
     ledger.clear();
     slabs.clear();
     slabs.extend(whole_slabs(pieces));

@@ -2,7 +2,7 @@
 use super::super::rectangle::Query;
 use super::policy::{Extent, Shape};
 use crate::eval::{PointJet, Workspace};
-use crate::geom::{Box3, Fan, Passage, Sheet};
+use crate::geom::{Box3, Fan, Leaving, Passage, Sheet};
 use crate::trace::{Cost, Sign};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Jet, SlopeOf};
@@ -22,8 +22,18 @@ pub(super) enum State {
     Open,
     /// It lies beside the least value: not worth a search.
     Outer,
-    /// The function of this kind is proved convex in t throughout the slab, on all rays of the cell.
-    Convex(Kind),
+    /// It is a core in which the function is proved convex.
+    Convex(Convexity),
+}
+
+/// What is proved of a slab on all rays of a cell, hence of its parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Convexity {
+    pub(super) kind: Kind,
+    /// `g''/2` is at least this, which is at least 0, for the function `g` of this kind throughout the slab.
+    pub(super) bend: f64,
+    /// About the place of the least value.
+    pub(super) least_at: Sheet,
 }
 
 /// The parameters `lo(u, v) <= t <= hi(u, v)` of one surface. (Where the sheets cross, those in between.)
@@ -45,6 +55,8 @@ pub(super) struct Cell<'a> {
     fan: Fan,
     directions: Box3,
     passages: Vec<Passage>,
+    /// For surfaces that the clip cuts, if all rays begin inside of it: where they leave it.
+    leaving: Vec<Option<Leaving>>,
     reach: &'a [f64],
 }
 
@@ -53,15 +65,22 @@ impl<'a> Cell<'a> {
     pub(super) fn new(query: &'a Query<'a>, reach: &'a [f64], part: [Interval; 2]) -> Self {
         let fan = Fan::towards(query.receiver.point, query.light, part[0], part[1]);
         let directions = fan.directions();
-        let passages = query.surfaces.iter().map(|at| at.passage(&fan.apex, &directions)).collect();
+        let symbols = [Affine::spanning(1, part[0]), Affine::spanning(2, part[1])];
+        let passages: Vec<Passage> = query.surfaces.iter().map(|at| at.passage(&fan.apex, &directions)).collect();
+        let leaving = query.surfaces.iter().zip(&passages).map(|(at, passage)| {
+            let cuts = at.region == at.clip && passage.inner.contains(0.0);
+            if cuts { at.clip.leaving(&fan, &symbols) } else { None }
+        });
+        let leaving = leaving.collect();
         Self {
             query,
             part,
             shape: Shape::of(query.light, query.receiver.point.mid(), part),
-            symbols: [Affine::spanning(1, part[0]), Affine::spanning(2, part[1])],
+            symbols,
             fan,
             directions,
             passages,
+            leaving,
             reach,
         }
     }
@@ -73,8 +92,9 @@ impl<'a> Cell<'a> {
     /// What of a slab is inside the surface's region: beyond it nothing occludes. `None` if nothing is.
     ///
     /// A parameter of the slab that is not beyond the region on every ray lies in `outer`, so it may be cut off at the ends of
-    /// that. That pays only where the clip cuts the surface: elsewhere it would but tilt the sheets. A convex slab stays as it is:
-    /// it must not grow, not even where its sheets already lie inside.
+    /// that; and below the sheet beyond which no ray is inside: if the slab's sheets are in order, what it has inside is
+    /// between its lower sheet and that one. That pays only where the clip cuts the surface: elsewhere it would but tilt the
+    /// sheets. A convex slab must not grow: it is cut only by a sheet that is proved to lie in it on all rays.
     pub(super) fn clipped(&self, slab: &Slab) -> Option<Slab> {
         let outer = self.passages[slab.surface].outer;
         let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
@@ -90,6 +110,16 @@ impl<'a> Cell<'a> {
             }
             if outer.hi() < f64::INFINITY && hi.certainly_at_most(&slab.hi, self.part) {
                 inside.hi = hi;
+            }
+        }
+        if let Some(Leaving { outer, .. }) = &self.leaving[slab.surface] {
+            let proved = |a: &Sheet, b: &Sheet| a.certainly_at_most(b, self.part);
+            let pays = match slab.state {
+                State::Convex(_) => proved(&slab.lo, outer) && proved(outer, &slab.hi),
+                _ => proved(&slab.lo, &slab.hi) && self.shape.above(&inside.hi, outer, 0.0),
+            };
+            if pays {
+                inside.hi = *outer;
             }
         }
         Some(inside)
@@ -108,15 +138,25 @@ impl<'a> Cell<'a> {
 
     /// Whether a negative value at any parameter of the slab, on a ray, proves that the ray is hidden: it must lie between
     /// the front and the light, inside the region together with the front, on all rays, and where f has been proved
-    /// continuous from the apex on.
+    /// continuous from the apex on. (Regions are convex: what is inside at the apex and at the sheet where rays leave is so in
+    /// between.)
     pub(super) fn inside(&self, slab: &Slab) -> bool {
         let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
         let passage = &self.passages[slab.surface];
+        let before =
+            |sheet: &Sheet| slab.lo.certainly_at_most(sheet, self.part) && slab.hi.certainly_at_most(sheet, self.part);
+        let in_region = t.is_subset_of(passage.inner) || self.last_inside(slab.surface).is_some_and(before);
         self.query.fronts[slab.surface].is_some_and(|front| {
             front.at <= t.lo()
                 && t.hi() <= self.reach[slab.surface]
-                && t.is_subset_of(passage.inner.intersection(Interval::new(0.0, 1.0)))
+                && t.is_subset_of(Interval::new(0.0, 1.0))
+                && in_region
         })
+    }
+
+    /// A sheet up to which all rays are inside the region of a surface that the clip cuts.
+    pub(super) fn last_inside(&self, surface: usize) -> Option<&Sheet> {
+        self.leaving[surface].as_ref().and_then(|leaving| leaving.inner.as_ref())
     }
 
     /// The points of the slab, `s` running from one sheet to the other.
@@ -157,34 +197,47 @@ impl<'a> Cell<'a> {
         if self.negative(slab.surface) { -form } else { form }
     }
 
-    /// Whether the function is proved convex in t throughout the slab, on every ray of the cell.
+    /// A lower bound of `g''/2` throughout the slab, on every ray of the cell, if that proves `g` convex in t there.
+    pub(super) fn bend(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Option<f64> {
+        let jet = self.jet(slab, kind, work, cost);
+        let bend = jet.second.range();
+        (jet.first.is_known() && !bend.is_empty() && bend.lo() >= 0.0).then(|| bend.lo())
+    }
+
+    /// Encloses `g'` on a sheet, on every ray of the cell.
+    pub(super) fn slope(&self, level: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Interval {
+        let jet = self.jet(level, kind, work, cost);
+        if jet.second.is_known() { jet.first.range() } else { Interval::ENTIRE }
+    }
+
+    /// The function over the slab, positive at the front, with its derivatives by t.
     ///
     /// `t = A + B s` with the largest `B` covers the slab.
-    pub(super) fn certainly_convex(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> bool {
+    fn jet(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Jet<Affine<3>> {
         cost.evaluations += 1;
         let (lo, hi) = (slab.lo.form(&self.symbols), slab.hi.form(&self.symbols));
-        let reach = (hi - lo).mul_f64(0.5).range().magnitude();
-        if !reach.is_finite() {
-            return false;
-        }
-        let t = (lo + hi).mul_f64(0.5) + Affine::symbol(0).mul_f64(reach);
+        let t = if slab.lo == slab.hi {
+            lo
+        } else {
+            let reach = (hi - lo).mul_f64(0.5).range().magnitude();
+            (lo + hi).mul_f64(0.5) + Affine::symbol(0).mul_f64(reach)
+        };
         let direction = &self.fan.direction;
         let points: [Jet<Affine<3>>; 3] =
             std::array::from_fn(|k| Jet::line((t * direction[k]).add_interval(self.fan.apex[k]), direction[k]));
         let function = self.query.surfaces[slab.surface].function;
-        let bend = match kind {
-            Kind::Plain => function.bend(points, work),
+        let jet = match kind {
+            Kind::Plain => function.jet(points, work),
             Kind::Slope => {
                 let slopes = std::array::from_fn(|k| SlopeOf {
                     apex: self.fan.apex[k],
                     value: points[k],
                     slope: Jet::line(direction[k], Affine::ZERO),
                 });
-                function.bend_slope(slopes, work)
+                function.jet_slope(slopes, work)
             }
         };
-        let bend = if self.negative(slab.surface) { -bend } else { bend };
-        !bend.is_empty() && bend.lo() >= 0.0
+        if self.negative(slab.surface) { -jet } else { jet }
     }
 
     /// Whether plain intervals prove the slab free.
@@ -202,6 +255,7 @@ impl<'a> Cell<'a> {
 
     /// About the function on the ray to `(u, v)` at `t`, and its derivatives by t: for choices only.
     pub(super) fn about(&self, surface: usize, kind: Kind, at: [f64; 2], t: f64, work: &mut Workspace) -> PointJet {
+        let t = super::policy::apart(kind, t);
         let points = self.shape.line(at, t);
         let jet = self.query.surfaces[surface].function.about(points, work);
         super::policy::seen_from_front(jet, kind, t, self.negative(surface))
@@ -213,5 +267,5 @@ pub(super) fn merged(a: &Slab, b: &Slab, part: [Interval; 2]) -> Slab {
     let (below, above) = (b.lo.below(a.lo.slopes, part), b.hi.above(a.hi.slopes, part));
     let lo = if below.k < a.lo.k { below } else { a.lo };
     let hi = if above.k > a.hi.k { above } else { a.hi };
-    Slab { surface: a.surface, lo, hi, state: State::Open }
+    Slab { surface: a.surface, lo, hi, state: State::Outer }
 }
