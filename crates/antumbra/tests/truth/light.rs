@@ -39,6 +39,7 @@ pub(crate) fn sees(judges: &[Judge], own: usize, p: &Point, side: f64, light: &R
     sees_in(SAMPLES, judges, own, p, side, light, at)
 }
 
+#[allow(dead_code, reason = "tests of whole brackets have a slack instead")]
 /// The same again, where it matters: grazing rays that pass through a solid for less than a section look free at first.
 pub(crate) fn sees_finely(
     judges: &[Judge],
