@@ -1,7 +1,7 @@
 //! The least value along a beam: the symbol `s` eliminated from a quadratic form.
 use super::{Quadratic, TINY, U, norm, parabola_low};
 use crate::affine::LARGE;
-use crate::round::{greater, lesser};
+use crate::round::{add_up, greater, lesser};
 
 /// A polynomial `c + l_a a + l_b b + q_aa a^2 + q_bb b^2 + q_ab a b` with exactly these coefficients.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -59,6 +59,18 @@ impl Eliminated {
         let zero = Paraboloid { c: 0.0, l: [0.0; 2], q: [0.0; 3] };
         Self { lower: zero, upper: zero, error: f64::INFINITY }
     };
+
+    /// The same if `g` may be lower than it was bounded by `by >= 0`: both bounds half as much lower, with half as much more
+    /// error. One rounding, of at most `u` times the rounded difference.
+    #[must_use]
+    pub fn lowered(self, by: f64) -> Self {
+        let half = 0.5 * by;
+        let down = |p: Paraboloid| Paraboloid { c: p.c - half, ..p };
+        let (lower, upper) = (down(self.lower), down(self.upper));
+        let rounding = 2.0 * U * greater(lower.c.abs(), upper.c.abs()) + TINY;
+        let error = add_up(add_up(self.error, half), rounding);
+        if by < LARGE { Self { lower, upper, error } } else { Self::UNKNOWN }
+    }
 
     /// `g > 0` for every `s`, `a`, `b`.
     #[must_use]

@@ -2,7 +2,7 @@
 use super::{Gradient, PointJet, Regions, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
-use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::affine::{Affine, Dual, Form, Jet, Slope, SlopeOf};
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Decoration, Interval};
 use std::sync::Arc;
@@ -105,15 +105,15 @@ pub trait Inclusion: Send + Sync {
         self.beam_slope(slopes, work).into()
     }
 
-    /// Half the second derivative along the rays of a beam piece: known only where the function is proved twice
-    /// differentiable. By default nothing is known.
-    fn bend(&self, _point: JetPoint, _work: &mut Workspace) -> Interval {
-        Interval::ENTIRE
+    /// The function and its first two derivatives along the rays of a beam piece: both are known only where the function is
+    /// proved twice differentiable. By default nothing is known.
+    fn jet(&self, _point: JetPoint, _work: &mut Workspace) -> Jet<Affine<3>> {
+        Jet::UNKNOWN
     }
 
     /// The same of the slope.
-    fn bend_slope(&self, _point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], _work: &mut Workspace) -> Interval {
-        Interval::ENTIRE
+    fn jet_slope(&self, _point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], _work: &mut Workspace) -> Jet<Affine<3>> {
+        Jet::UNKNOWN
     }
 
     /// About the value and two derivatives along a line, rounded: never for proofs. By default difference quotients.
@@ -235,14 +235,12 @@ impl Inclusion for Tape {
         run(self, point, &mut work.quadratic_slopes).slope
     }
 
-    fn bend(&self, point: JetPoint, work: &mut Workspace) -> Interval {
-        let jet = run(self, point, &mut work.jets);
-        if jet.first.is_known() { jet.second.range() } else { Interval::ENTIRE }
+    fn jet(&self, point: JetPoint, work: &mut Workspace) -> Jet<Affine<3>> {
+        run(self, point, &mut work.jets)
     }
 
-    fn bend_slope(&self, point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], work: &mut Workspace) -> Interval {
-        let jet = run(self, point, &mut work.jet_slopes).slope;
-        if jet.first.is_known() { jet.second.range() } else { Interval::ENTIRE }
+    fn jet_slope(&self, point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], work: &mut Workspace) -> Jet<Affine<3>> {
+        run(self, point, &mut work.jet_slopes).slope
     }
 
     fn about(&self, point: [PointJet; 3], work: &mut Workspace) -> PointJet {

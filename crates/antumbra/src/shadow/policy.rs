@@ -14,7 +14,7 @@ const ROOT_ASPECT: f64 = 1.0;
 /// ... and below it.
 const ASPECT: f64 = 2.0;
 /// ... and in shafts.
-const SHAFT_ASPECT: f64 = 0.7;
+const SHAFT_ASPECT: f64 = 1.4;
 /// Widths grow along the beam as t, but count at least as at this t.
 const NEAR: f64 = 0.3;
 /// Never halve below this length.

@@ -196,12 +196,12 @@ impl Inclusion for Regions {
         self.tape(&Box3(point.map(|x| x.apex.hull(x.value.range())))).quadratic_slope(point, work)
     }
 
-    fn bend(&self, point: JetPoint, work: &mut Workspace) -> Interval {
-        self.tape(&Box3(point.map(|x| x.value.range()))).bend(point, work)
+    fn jet(&self, point: JetPoint, work: &mut Workspace) -> Jet<Affine<3>> {
+        self.tape(&Box3(point.map(|x| x.value.range()))).jet(point, work)
     }
 
-    fn bend_slope(&self, point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], work: &mut Workspace) -> Interval {
-        self.tape(&Box3(point.map(|x| x.apex.hull(x.value.range())))).bend_slope(point, work)
+    fn jet_slope(&self, point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], work: &mut Workspace) -> Jet<Affine<3>> {
+        self.tape(&Box3(point.map(|x| x.apex.hull(x.value.range())))).jet_slope(point, work)
     }
 
     fn about(&self, point: [PointJet; 3], work: &mut Workspace) -> PointJet {

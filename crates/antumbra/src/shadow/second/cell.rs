@@ -1,10 +1,13 @@
 //! One rectangle of a light, seen from one hit, to second order.
-use super::policy::{self, Plan, TRIES, Trial, between};
-use super::slab::{Cell, Kind, Slab, State, merged};
+use super::policy::{self, CORES, Nearest, Plan, Trial, between};
+use super::slab::{Cell, Convexity, Kind, Slab, State, merged};
 use crate::eval::Workspace;
+use crate::geom::Sheet;
 use crate::geom::strips::{self, Areas, Curve, areas};
 use crate::trace::Cost;
+use antumbra_interval::Interval;
 use antumbra_interval::quadratic::{Eliminated, Quadratic};
+use antumbra_interval::round::{div_up, mul_down, mul_up};
 use std::ops::Range;
 
 /// What is known of a cell.
@@ -31,18 +34,15 @@ pub(super) struct Scratch {
     constraints: Vec<Constraint>,
     curves: Vec<Curve>,
     areas: strips::Scratch,
-    /// Of long and of short slabs.
+    /// Plain intervals for long and for short slabs.
     trials: [Trial; 2],
+    /// Convexity of cores of different sizes.
+    cores: [Trial; CORES.len()],
     /// Evaluations before this cell.
     before: u64,
 }
 
 impl Scratch {
-    /// Another hit: what was learnt of the last one is forgotten, so that results do not depend on the order of hits.
-    pub(super) fn forget(&mut self) {
-        self.trials = Default::default();
-    }
-
     /// What the last open cell said.
     pub(super) fn curves(&self) -> &[Curve] {
         &self.curves
@@ -76,7 +76,12 @@ pub(super) fn look(
     let begin = open.len();
     while let Some(slab) = s.stack.pop() {
         let Some(slab) = cell.clipped(&slab) else { continue };
-        let settled = if slab.state != State::Outer && !cell.shape.short(cell.extent(&slab)) {
+        let search = match slab.state {
+            State::Outer => false,
+            State::Open => !cell.shape.short(cell.extent(&slab)),
+            State::Convex(_) => true,
+        };
+        let settled = if search {
             narrow(cell, &slab, open, s, work, cost)
         } else {
             plain(cell, &slab, open, s, work, cost)
@@ -136,21 +141,16 @@ fn plain(
             return Settled::Slab;
         }
     }
-    open.push(Slab { state: State::Open, ..*slab });
+    open.push(*slab);
     s.constraints.push(constraint(&least, hides, kind, extent.middle()));
     Settled::Slab
 }
 
-/// A long slab: finds the least value, and looks at a thin slab around it.
+/// A long slab: finds the least value along each ray.
 ///
 /// The slab is covered by an outer slab below, a core, and an outer slab above, which share their sheets: so every parameter
-/// is in one of them, wherever the sheets are.
-///
-/// **Lemma (core).** Let the function be convex in t in the core, on every ray of the cell, and let the main slab
-/// `[m_0, m_1]`, `m_0 <= m_1`, lie in the core. Let there be on every ray a parameter `t_U` of the main slab with a value at
-/// most `U + e`. If at an end that is not the core's the value is above `U + e`, then on every ray all values of the core
-/// beyond that end are above it too (a convex function that has risen from `t_U` to the end goes on rising). So the least
-/// value over the core is that over the main slab, and if it is positive the core is free.
+/// is in one of them, wherever the sheets are. If the function is proved convex in the core, one sheet of it bounds the
+/// least value.
 fn narrow(
     cell: &Cell<'_>,
     slab: &Slab,
@@ -160,60 +160,46 @@ fn narrow(
     cost: &mut Cost,
 ) -> Settled {
     let part = cell.part;
-    let searched = match slab.state {
-        State::Convex(kind) => kind,
-        _ => cell.kind(slab),
+    let (searched, start) = match slab.state {
+        State::Convex(known) => (known.kind, Some(known.least_at)),
+        _ => (cell.kind(slab), None),
     };
-    let mut plan = cell.shape.plan(&slab.lo, &slab.hi, |at, t| cell.about(slab.surface, searched, at, t, work));
+    let about = |at, t| cell.about(slab.surface, searched, at, t, work);
+    let plan = cell.shape.plan(&slab.lo, &slab.hi, start.as_ref(), about);
     if !plan.sheet(1.0).is_finite() {
         return plain(cell, &Slab { state: State::Outer, ..*slab }, open, s, work, cost);
     }
-    // A range that is proved convex is never enlarged: its own sheets stay.
-    let core = match slab.state {
-        State::Convex(_) => *slab,
+    let least_at = plan.sheet(0.0);
+    let (core, convex) = match slab.state {
+        // A range that is proved convex is never enlarged: its own sheets stay.
+        State::Convex(known) => (*slab, Some(Convexity { least_at, ..known })),
         _ => {
-            let (below, above) = (slab.lo.below(plan.slopes(), part), slab.hi.above(plan.slopes(), part));
-            let [lo, hi] = plan.core();
-            let cut_lo = cell.shape.above(&lo, &below, plan.width);
-            let cut_hi = cell.shape.above(&above, &hi, plan.width);
-            let (lo, hi) = (if cut_lo { lo } else { below }, if cut_hi { hi } else { above });
-            if cut_hi {
-                s.stack.push(Slab { lo: hi, hi: above, state: State::Outer, ..*slab });
+            let whole = Slab { lo: slab.lo.below(plan.slopes(), part), hi: slab.hi.above(plan.slopes(), part), ..*slab };
+            let (core, bend) = core(cell, &whole, &plan, s, work, cost);
+            if core.hi != whole.hi {
+                s.stack.push(Slab { lo: core.hi, hi: whole.hi, state: State::Outer, ..*slab });
             }
-            if cut_lo {
-                s.stack.push(Slab { lo: below, hi: lo, state: State::Outer, ..*slab });
+            if core.lo != whole.lo {
+                s.stack.push(Slab { lo: whole.lo, hi: core.lo, state: State::Outer, ..*slab });
             }
-            Slab { lo, hi, ..*slab }
+            (core, bend.map(|(kind, bend)| Convexity { kind, bend, least_at }))
         }
     };
-    let convex = match slab.state {
-        State::Convex(kind) => Some(kind),
-        _ => {
-            let kind = cell.kind(&core);
-            cell.certainly_convex(&core, kind, work, cost).then_some(kind)
+    if let Some(convex) = convex {
+        let (level, beyond) = level(cell, &core, &plan);
+        let least = cell.form(&level, convex.kind, work, cost).eliminate();
+        let hides = cell.inside(&level);
+        if hides && least.certainly_negative_somewhere() {
+            return Settled::DarkCell;
         }
-    };
-    if let Some(kind) = convex {
-        for _ in 0..TRIES {
-            let (main, [cut_lo, cut_hi]) = main_slab(cell, &core, &plan);
-            let ordered = !(cut_lo || cut_hi) || main.lo.certainly_at_most(&main.hi, part);
-            let form = cell.form(&main, kind, work, cost);
-            let least = form.eliminate();
-            let hides = cell.inside(&main);
-            if hides && least.certainly_negative_somewhere() {
-                return Settled::DarkCell;
+        let fall = fall(beyond, cell.slope(&level, convex.kind, work, cost), convex.bend);
+        if fall.is_finite() {
+            let least = least.lowered(fall);
+            if !least.certainly_positive() {
+                open.push(Slab { state: State::Convex(convex), ..core });
+                s.constraints.push(constraint(&least, hides, convex.kind, cell.extent(&level).middle()));
             }
-            let rises = |cut: bool, s: f64| !cut || rises_beyond(&form, &least, s);
-            if ordered && rises(cut_lo, -1.0) && rises(cut_hi, 1.0) {
-                if !least.certainly_positive() {
-                    open.push(Slab { state: State::Convex(kind), ..core });
-                    s.constraints.push(constraint(&least, hides, kind, cell.extent(&main).middle()));
-                }
-                return Settled::Slab;
-            }
-            if !plan.thicker(&form) {
-                break;
-            }
+            return Settled::Slab;
         }
     }
     // The core in up to three parts, which share their sheets.
@@ -228,6 +214,85 @@ fn narrow(
     Settled::Slab
 }
 
+/// The widest part around the expected least value that is proved convex enough, with a lower bound of `g''/2` there; else the
+/// narrowest one that was tried. Its ends are those of the whole slab, or sheets parallel to them.
+fn core(
+    cell: &Cell<'_>,
+    whole: &Slab,
+    plan: &Plan,
+    s: &mut Scratch,
+    work: &mut Workspace,
+    cost: &mut Cost,
+) -> (Slab, Option<(Kind, f64)>) {
+    let mut last = None;
+    for (k, size) in CORES.into_iter().enumerate() {
+        let part = match size {
+            None => *whole,
+            Some(size) => {
+                let [lo, hi] = [-size, size].map(|widths| plan.sheet(widths));
+                let cut_lo = cell.shape.above(&lo, &whole.lo, plan.width);
+                let cut_hi = cell.shape.above(&whole.hi, &hi, plan.width);
+                let (lo, hi) = (if cut_lo { lo } else { whole.lo }, if cut_hi { hi } else { whole.hi });
+                Slab { lo, hi, ..*whole }
+            }
+        };
+        if last.is_some_and(|(before, _)| before == part) || (k + 1 < CORES.len() && !s.cores[k].worth()) {
+            continue;
+        }
+        let kind = cell.kind(&part);
+        let bend = cell.bend(&part, kind, work, cost);
+        let enough = bend.is_some_and(|bend| plan.bends_enough(bend));
+        s.cores[k].tell(enough);
+        last = Some((part, bend.map(|bend| (kind, bend))));
+        if enough {
+            break;
+        }
+    }
+    last.unwrap_or((*whole, None))
+}
+
+/// Where the parameters of a slab lie, seen from a sheet in it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+enum Beyond {
+    Above,
+    Below,
+    Both,
+}
+
+/// The sheet of a core nearest to the expected place of the least value, proved to lie in the core on all rays of the cell.
+///
+/// An end of the core does, but where the sheets cross the core may lie on either side of it.
+fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, Beyond) {
+    let expected = plan.sheet(0.0);
+    let proved = |a: &Sheet, b: &Sheet| a.certainly_at_most(b, cell.part);
+    let (sheet, beyond) = match cell.shape.nearest(&core.lo, &expected, &core.hi, plan.margin()) {
+        Nearest::Middle if proved(&core.lo, &expected) && proved(&expected, &core.hi) => (expected, Beyond::Both),
+        Nearest::Lower => (core.lo, if proved(&core.lo, &core.hi) { Beyond::Above } else { Beyond::Both }),
+        _ => (core.hi, if proved(&core.lo, &core.hi) { Beyond::Below } else { Beyond::Both }),
+    };
+    (Slab { lo: sheet, hi: sheet, state: State::Outer, ..*core }, beyond)
+}
+
+/// How far below its value on a sheet the least value over a convex slab may lie.
+///
+/// **Lemma (sheet).** Let `g''/2 >= m >= 0` in the slab, and `t_0` in it. With `d = g'(t_0)` and `x = t - t_0`, Taylor's
+/// formula gives `g(t) >= g(t_0) + d x + m x^2 >= g(t_0) - d^2/(4m)`, and `g(t) >= g(t_0)` where `d x >= 0`.
+fn fall(beyond: Beyond, slope: Interval, bend: f64) -> f64 {
+    let steepness = match beyond {
+        Beyond::Both => slope.magnitude(),
+        Beyond::Above => -slope.lo(),
+        Beyond::Below => slope.hi(),
+    };
+    let four = mul_down(4.0, bend);
+    if steepness <= 0.0 {
+        0.0
+    } else if four > 0.0 {
+        div_up(mul_up(steepness, steepness), four)
+    } else {
+        f64::INFINITY
+    }
+}
+
 /// The main slab, and which of its ends are not the core's: only sheets proved to lie inside of the core are ends of it.
 fn main_slab(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [bool; 2]) {
     let (lo, hi) = (plan.sheet(-1.0), plan.sheet(1.0));
@@ -237,13 +302,6 @@ fn main_slab(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [bool; 2]) {
     let cut_hi = cell.shape.above(&core.hi, &hi, margin) && inside(&hi);
     let (lo, hi) = (if cut_lo { lo } else { core.lo }, if cut_hi { hi } else { core.hi });
     (Slab { lo, hi, state: State::Outer, ..*core }, [cut_lo, cut_hi])
-}
-
-/// Whether on every ray the function at the end `s` of the slab is above its upper bound `U + e` inside:
-/// `Q(s) - e > U + e`, with the error of the bound, which is at least that of the form.
-fn rises_beyond(form: &Quadratic, least: &Eliminated, s: f64) -> bool {
-    let twice = antumbra_interval::round::add_up(least.error, least.error);
-    form.rise_at(s, &least.upper) > twice
 }
 
 /// Whether a slab that hides on some ray lies beside another that hides there too: `g >= k U + k e > k g'(t_U)` wherever
@@ -260,19 +318,21 @@ fn constraint(least: &Eliminated, hides: bool, kind: Kind, t: f64) -> Constraint
     Constraint { curve, kind, t }
 }
 
-/// Joins open slabs of one surface that touch: a larger slab keeps the invariant, and there are fewer.
+/// Joins open slabs of one surface that touch: a larger slab keeps the invariant, and there are fewer. Convex ones stay as they
+/// are; beside them nothing is worth a search.
 fn join(cell: &Cell<'_>, open: &mut Vec<Slab>, begin: usize) {
     let shape = &cell.shape;
     open[begin..].sort_by(|a, b| {
         let order = shape.place(&a.lo).total_cmp(&shape.place(&b.lo));
         a.surface.cmp(&b.surface).then(order)
     });
+    let convex = |slab: &Slab| matches!(slab.state, State::Convex(_));
     let mut last = begin;
     for k in begin + 1..open.len() {
         let (slab, before) = (open[k], open[last]);
         let joint = merged(&before, &slab, cell.part);
         let touch = slab.surface == before.surface && shape.touch(&before.hi, &slab.lo, &slab.hi);
-        if touch && joint.lo.is_finite() && joint.hi.is_finite() {
+        if touch && !convex(&slab) && !convex(&before) && joint.lo.is_finite() && joint.hi.is_finite() {
             open[last] = joint;
         } else {
             last += 1;
@@ -280,4 +340,10 @@ fn join(cell: &Cell<'_>, open: &mut Vec<Slab>, begin: usize) {
         }
     }
     open.truncate(last + 1);
+    for k in begin..open.len() {
+        let beside = |o: &Slab| o.surface == open[k].surface && convex(o);
+        if !convex(&open[k]) && !open[begin..].iter().any(beside) {
+            open[k].state = State::Open;
+        }
+    }
 }

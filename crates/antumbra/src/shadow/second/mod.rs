@@ -134,7 +134,6 @@ pub(super) fn fraction(
         }
         _ => u64::MAX,
     };
-    scratch.forget();
     ledger.clear();
     slabs.clear();
     slabs.extend(whole_slabs(pieces));

@@ -5,12 +5,13 @@ use crate::eval::PointJet;
 use crate::geom::strips::Band;
 use crate::geom::{Rect, Sheet, Vec3};
 use antumbra_interval::Interval;
-use antumbra_interval::quadratic::Quadratic;
 
 /// Half thickness of the main slab, in widths of the cell.
 const MAIN: f64 = 1.0;
-/// Half thickness of the core around it, in half thicknesses of the main slab.
-const CORE: f64 = 3.0;
+/// Half thicknesses of cores that may be convex, in widths of the cell; first the whole slab.
+pub(super) const CORES: [Option<f64>; 3] = [None, Some(8.0), Some(3.0)];
+/// A core is taken if its least bend is at least this part of the bend at the least value.
+const BEND: f64 = 0.25;
 /// A slab is short if its half length is at most this many widths.
 const SHORT: f64 = 2.1;
 /// Widths grow along the beam as t, but count at least as at this t.
@@ -30,8 +31,6 @@ const STEPS: usize = 7;
 const CERTAIN: u32 = 9;
 /// Evaluations for one hit after which planes get their chance, at a tolerance of 1/255.
 const FAIR: f64 = 4000.0;
-/// Thickenings of the main slab before convexity is given up.
-pub(super) const TRIES: usize = 3;
 
 /// Sizes of a cell, in plain numbers.
 pub(super) struct Shape {
@@ -101,10 +100,19 @@ impl Shape {
 
     /// About the place of the least value between two sheets, and how it moves across the cell. `about` gives values on
     /// rays.
-    pub(super) fn plan(&self, lo: &Sheet, hi: &Sheet, mut about: impl FnMut([f64; 2], f64) -> PointJet) -> Plan {
+    pub(super) fn plan(
+        &self,
+        lo: &Sheet,
+        hi: &Sheet,
+        start: Option<&Sheet>,
+        mut about: impl FnMut([f64; 2], f64) -> PointJet,
+    ) -> Plan {
         let Extent { lo: first, hi: last } = self.extent(lo, hi);
         let length = last - first;
         let (mut t, mut a, mut b) = (0.5 * (first + last), first, last);
+        if let Some(sheet) = start {
+            t = at(sheet, self.centre).max(first).min(last);
+        }
         let mut g = PointJet::default();
         let mut found = false;
         for _ in 0..STEPS {
@@ -156,7 +164,7 @@ impl Shape {
             }
         }
         let k = t - slopes[0] * self.centre[0] - slopes[1] * self.centre[1];
-        Plan { middle: Sheet { k, slopes }, width }
+        Plan { middle: Sheet { k, slopes }, width, bend: g.second }
     }
 
     /// Whether a cut is well inside: above `lo` by a margin at the middle ray.
@@ -168,6 +176,18 @@ impl Shape {
     pub(super) fn touch(&self, before: &Sheet, lo: &Sheet, hi: &Sheet) -> bool {
         let (end, begin) = (at(before, self.centre), at(lo, self.centre));
         begin <= end + 1e-3 * (at(hi, self.centre) - begin)
+    }
+
+    /// Which of the sheets is nearest to the one in the middle, up to a margin.
+    pub(super) fn nearest(&self, lo: &Sheet, middle: &Sheet, hi: &Sheet, margin: f64) -> Nearest {
+        let (lo, t, hi) = (self.place(lo), self.place(middle), self.place(hi));
+        if lo + margin < t && t < hi - margin {
+            Nearest::Middle
+        } else if t - lo < hi - t {
+            Nearest::Lower
+        } else {
+            Nearest::Upper
+        }
     }
 
     /// For sorting along the middle ray.
@@ -188,11 +208,21 @@ impl Shape {
     }
 }
 
+/// One of three sheets.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Nearest {
+    Lower,
+    Middle,
+    Upper,
+}
+
 /// Where the least value of a slab is expected: a sheet, and half a thickness around it.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Plan {
     middle: Sheet,
     pub(super) width: f64,
+    /// About `g''/2` there.
+    bend: f64,
 }
 
 impl Plan {
@@ -210,15 +240,9 @@ impl Plan {
         0.02 * self.width
     }
 
-    pub(super) fn core(&self) -> [Sheet; 2] {
-        [self.sheet(-CORE), self.sheet(CORE)]
-    }
-
-    /// A thicker main slab, so that at its ends the parabola rises above the error.
-    pub(super) fn thicker(&mut self, form: &Quadratic) -> bool {
-        let bend = form.quadratic()[0];
-        self.width *= (5.0 * form.error() / bend).sqrt().clamp(1.4, 2.5);
-        bend > 0.0 && self.width.is_finite()
+    /// Whether a core bends enough to tell where its least value is.
+    pub(super) fn bends_enough(&self, bend: f64) -> bool {
+        bend >= BEND * self.bend
     }
 }
 
@@ -297,7 +321,7 @@ pub(super) fn enough(tolerance: f64, area: f64) -> f64 {
     0.1 * tolerance / area
 }
 
-/// Whether plain intervals are worth trying first: as long as they keep succeeding. One for long, one for short slabs.
+/// Whether something that may spare work is worth trying: as long as it keeps succeeding.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Trial {
     asked: u32,

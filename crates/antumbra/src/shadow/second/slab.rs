@@ -22,8 +22,18 @@ pub(super) enum State {
     Open,
     /// It lies beside the least value: not worth a search.
     Outer,
-    /// The function of this kind is proved convex in t throughout the slab, on all rays of the cell.
-    Convex(Kind),
+    /// It is a core in which the function is proved convex.
+    Convex(Convexity),
+}
+
+/// What is proved of a slab on all rays of a cell, hence of its parts.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Convexity {
+    pub(super) kind: Kind,
+    /// `g''/2` is at least this, which is at least 0, for the function `g` of this kind throughout the slab.
+    pub(super) bend: f64,
+    /// About the place of the least value.
+    pub(super) least_at: Sheet,
 }
 
 /// The parameters `lo(u, v) <= t <= hi(u, v)` of one surface. (Where the sheets cross, those in between.)
@@ -157,34 +167,47 @@ impl<'a> Cell<'a> {
         if self.negative(slab.surface) { -form } else { form }
     }
 
-    /// Whether the function is proved convex in t throughout the slab, on every ray of the cell.
+    /// A lower bound of `g''/2` throughout the slab, on every ray of the cell, if that proves `g` convex in t there.
+    pub(super) fn bend(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Option<f64> {
+        let jet = self.jet(slab, kind, work, cost);
+        let bend = jet.second.range();
+        (jet.first.is_known() && !bend.is_empty() && bend.lo() >= 0.0).then(|| bend.lo())
+    }
+
+    /// Encloses `g'` on a sheet, on every ray of the cell.
+    pub(super) fn slope(&self, level: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Interval {
+        let jet = self.jet(level, kind, work, cost);
+        if jet.second.is_known() { jet.first.range() } else { Interval::ENTIRE }
+    }
+
+    /// The function over the slab, positive at the front, with its derivatives by t.
     ///
     /// `t = A + B s` with the largest `B` covers the slab.
-    pub(super) fn certainly_convex(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> bool {
+    fn jet(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Jet<Affine<3>> {
         cost.evaluations += 1;
         let (lo, hi) = (slab.lo.form(&self.symbols), slab.hi.form(&self.symbols));
-        let reach = (hi - lo).mul_f64(0.5).range().magnitude();
-        if !reach.is_finite() {
-            return false;
-        }
-        let t = (lo + hi).mul_f64(0.5) + Affine::symbol(0).mul_f64(reach);
+        let t = if slab.lo == slab.hi {
+            lo
+        } else {
+            let reach = (hi - lo).mul_f64(0.5).range().magnitude();
+            (lo + hi).mul_f64(0.5) + Affine::symbol(0).mul_f64(reach)
+        };
         let direction = &self.fan.direction;
         let points: [Jet<Affine<3>>; 3] =
             std::array::from_fn(|k| Jet::line((t * direction[k]).add_interval(self.fan.apex[k]), direction[k]));
         let function = self.query.surfaces[slab.surface].function;
-        let bend = match kind {
-            Kind::Plain => function.bend(points, work),
+        let jet = match kind {
+            Kind::Plain => function.jet(points, work),
             Kind::Slope => {
                 let slopes = std::array::from_fn(|k| SlopeOf {
                     apex: self.fan.apex[k],
                     value: points[k],
                     slope: Jet::line(direction[k], Affine::ZERO),
                 });
-                function.bend_slope(slopes, work)
+                function.jet_slope(slopes, work)
             }
         };
-        let bend = if self.negative(slab.surface) { -bend } else { bend };
-        !bend.is_empty() && bend.lo() >= 0.0
+        if self.negative(slab.surface) { -jet } else { jet }
     }
 
     /// Whether plain intervals prove the slab free.
@@ -213,5 +236,5 @@ pub(super) fn merged(a: &Slab, b: &Slab, part: [Interval; 2]) -> Slab {
     let (below, above) = (b.lo.below(a.lo.slopes, part), b.hi.above(a.hi.slopes, part));
     let lo = if below.k < a.lo.k { below } else { a.lo };
     let hi = if above.k > a.hi.k { above } else { a.hi };
-    Slab { surface: a.surface, lo, hi, state: State::Open }
+    Slab { surface: a.surface, lo, hi, state: State::Outer }
 }

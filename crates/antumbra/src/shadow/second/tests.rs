@@ -8,6 +8,7 @@ use crate::shadow::occluders::Front;
 use crate::shadow::rectangle::Query;
 use crate::shadow::{Penumbra, Receiver, Says, Scratch, Tolerance, visible, whole_beam};
 use crate::trace::{Cost, Piece, Sign, Surface};
+use antumbra_interval::affine::{Affine, Jet};
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Interval};
 use std::ops::{Add, Mul, Sub};
@@ -45,8 +46,8 @@ impl Inclusion for Valleys {
     fn quadratic(&self, point: QuadraticPoint, _: &mut Workspace) -> Quadratic {
         valleys(point, |k| Quadratic::constant(Interval::point(k)))
     }
-    fn bend(&self, point: JetPoint, _: &mut Workspace) -> Interval {
-        valleys(point, |k| antumbra_interval::affine::Jet::constant(Interval::point(k))).second.range()
+    fn jet(&self, point: JetPoint, _: &mut Workspace) -> Jet<Affine<3>> {
+        valleys(point, |k| Jet::constant(Interval::point(k)))
     }
 }
 
