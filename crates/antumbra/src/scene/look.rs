@@ -188,8 +188,7 @@ pub enum Tone {
 
 impl Tone {
     /// Every tone and its name.
-    pub const ALL: [(Self, &'static str); 3] =
-        [(Self::Soft, "soft"), (Self::Plain, "plain"), (Self::Filmic, "filmic")];
+    pub const ALL: [(Self, &'static str); 3] = [(Self::Soft, "soft"), (Self::Plain, "plain"), (Self::Filmic, "filmic")];
 }
 
 /// Brightness of a picture.

@@ -81,11 +81,8 @@ pub(super) fn look(
             State::Open => !cell.shape.short(cell.extent(&slab)),
             State::Convex(_) => true,
         };
-        let settled = if search {
-            narrow(cell, &slab, open, s, work, cost)
-        } else {
-            plain(cell, &slab, open, s, work, cost)
-        };
+        let settled =
+            if search { narrow(cell, &slab, open, s, work, cost) } else { plain(cell, &slab, open, s, work, cost) };
         if let Settled::DarkCell = settled {
             open.truncate(begin);
             return Answer::Dark;
@@ -174,7 +171,8 @@ fn narrow(
         // A range that is proved convex is never enlarged: its own sheets stay.
         State::Convex(known) => (*slab, Some(Convexity { least_at, ..known })),
         _ => {
-            let whole = Slab { lo: slab.lo.below(plan.slopes(), part), hi: slab.hi.above(plan.slopes(), part), ..*slab };
+            let whole =
+                Slab { lo: slab.lo.below(plan.slopes(), part), hi: slab.hi.above(plan.slopes(), part), ..*slab };
             let (core, bend) = core(cell, &whole, &plan, s, work, cost);
             if core.hi != whole.hi {
                 s.stack.push(Slab { lo: core.hi, hi: whole.hi, state: State::Outer, ..*slab });
