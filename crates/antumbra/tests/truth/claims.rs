@@ -115,7 +115,7 @@ impl Default for Check {
 #[derive(Debug, Default)]
 pub(crate) struct Tally {
     pub(crate) hits: usize,
-    /// Hits with a cell that is neither lit nor dark as a whole.
+    /// Hits that see the light neither as a whole nor not at all.
     pub(crate) penumbrae: usize,
     pub(crate) claims: usize,
     /// Rays claimed lit, and dark, that the sampler could judge.
@@ -158,13 +158,13 @@ pub(crate) fn check(name: &str, scene: &Scene, of: Check) -> Tally {
     let mut random = fastrand::Rng::with_seed(of.seed);
     let tolerance = |width, penumbra| Tolerance { width, rectangles: of.rectangles, penumbra };
     let mut tried = 0;
-    while tally.penumbrae < of.hits && tried < 60 * of.hits {
+    while tally.penumbrae < of.hits && tried < 400 * of.hits {
         tried += 1;
         let Some(hit) = hit(scene, &judges, &mut random) else { continue };
         tally.hits += 1;
         let (second, claims, cost) = ask(&objects, &hit, &light, tolerance(of.width, Penumbra::Second));
-        // Most hits are lit or dark as a whole, by one claim.
-        if !claims.iter().any(|c| matches!(c.says, Says::Curves(_))) {
+        // Most hits are lit or dark as a whole.
+        if !claims.iter().any(|c| matches!(c.says, Says::Curves(_))) || second.lo == 1.0 || second.hi == 0.0 {
             continue;
         }
         let (first, _, first_cost) = ask(&objects, &hit, &light, tolerance(of.width.max(1.0 / 255.0), Penumbra::First));
