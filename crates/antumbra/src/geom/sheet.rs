@@ -55,6 +55,12 @@ impl Sheet {
         self.minus(o, part).hi() <= 0.0
     }
 
+    /// Upper bound of the distance to another sheet over the part.
+    #[must_use]
+    pub fn distance(&self, o: &Self, part: [Interval; 2]) -> f64 {
+        self.minus(o, part).magnitude()
+    }
+
     /// The sheet as a form, `u` and `v` given as forms.
     #[must_use]
     pub fn form(&self, [u, v]: &[Affine<3>; 2]) -> Affine<3> {
@@ -82,6 +88,8 @@ mod tests {
             let gap = (above.k - below.k) - 0.5 * ((slopes[0] - 0.1).abs() * 2.0 + (slopes[1] + 0.2).abs() * 0.2);
             assert!(gap.abs() < 1e-14, "{gap}: no more than needed");
         }
+        let far = sheet.distance(&Sheet::level(0.0), part);
+        assert!((far - (0.5 + 0.07 - 0.02)).abs() < 1e-14, "{far}: at u = 0.7, v = 0.1");
         assert_eq!(sheet.below(sheet.slopes, part), sheet, "the same sheet is its own cover");
         assert!(
             !Sheet::level(0.5).certainly_at_most(&sheet, part) && !sheet.certainly_at_most(&Sheet::level(0.5), part)

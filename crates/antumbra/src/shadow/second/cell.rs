@@ -190,7 +190,8 @@ fn narrow(
         if hides && least.certainly_negative_somewhere() {
             return Settled::DarkCell;
         }
-        let fall = fall(beyond, cell.slope(&level, convex.kind, work, cost), convex.bend);
+        let reach = level.lo.distance(&core.lo, part).max(level.lo.distance(&core.hi, part));
+        let fall = fall(beyond, cell.slope(&level, convex.kind, work, cost), convex.bend, reach);
         if fall.is_finite() {
             let least = least.lowered(fall);
             if !least.certainly_positive() {
@@ -274,21 +275,20 @@ fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, Beyond) {
 /// How far below its value on a sheet the least value over a convex slab may lie.
 ///
 /// **Lemma (sheet).** Let `g''/2 >= m >= 0` in the slab, and `t_0` in it. With `d = g'(t_0)` and `x = t - t_0`, Taylor's
-/// formula gives `g(t) >= g(t_0) + d x + m x^2 >= g(t_0) - d^2/(4m)`, and `g(t) >= g(t_0)` where `d x >= 0`.
-fn fall(beyond: Beyond, slope: Interval, bend: f64) -> f64 {
+/// formula gives `g(t) >= g(t_0) + d x + m x^2`. That is at least `g(t_0) - d^2/(4m)`, at least `g(t_0) - |d| reach` if `|x|` is at
+/// most `reach`, and at least `g(t_0)` where `d x >= 0`.
+fn fall(beyond: Beyond, slope: Interval, bend: f64, reach: f64) -> f64 {
     let steepness = match beyond {
         Beyond::Both => slope.magnitude(),
         Beyond::Above => -slope.lo(),
         Beyond::Below => slope.hi(),
     };
-    let four = mul_down(4.0, bend);
     if steepness <= 0.0 {
-        0.0
-    } else if four > 0.0 {
-        div_up(mul_up(steepness, steepness), four)
-    } else {
-        f64::INFINITY
+        return 0.0;
     }
+    let (four, line) = (mul_down(4.0, bend), mul_up(steepness, reach));
+    let parabola = if four > 0.0 { div_up(mul_up(steepness, steepness), four) } else { f64::INFINITY };
+    parabola.min(line)
 }
 
 /// The main slab, and which of its ends are not the core's: only sheets proved to lie inside of the core are ends of it.

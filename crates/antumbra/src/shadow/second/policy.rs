@@ -251,6 +251,11 @@ pub(super) fn between(lo: &Sheet, hi: &Sheet) -> Sheet {
     Sheet { k: 0.5 * (lo.k + hi.k), slopes: std::array::from_fn(|i| 0.5 * (lo.slopes[i] + hi.slopes[i])) }
 }
 
+/// A parameter at which to look: the slope is a quotient, of which at the hit nothing but noise would be left.
+pub(super) fn apart(kind: Kind, t: f64) -> f64 {
+    if kind == Kind::Slope { t.max(1e-4) } else { t }
+}
+
 /// Signs and kind applied to a jet of f at t.
 pub(super) fn seen_from_front(f: PointJet, kind: Kind, t: f64, negative: bool) -> PointJet {
     let sign = if negative { -1.0 } else { 1.0 };
@@ -259,7 +264,6 @@ pub(super) fn seen_from_front(f: PointJet, kind: Kind, t: f64, negative: bool) -
         Kind::Plain => f,
         // f = t g: g = f/t, g' = (f' - g)/t, g''/2 = (f''/2 - g')/t.
         Kind::Slope => {
-            let t = t.max(1e-9);
             let value = f.value / t;
             let first = (f.first - value) / t;
             PointJet { value, first, second: (f.second - first) / t }

@@ -225,6 +225,7 @@ impl<'a> Cell<'a> {
 
     /// About the function on the ray to `(u, v)` at `t`, and its derivatives by t: for choices only.
     pub(super) fn about(&self, surface: usize, kind: Kind, at: [f64; 2], t: f64, work: &mut Workspace) -> PointJet {
+        let t = super::policy::apart(kind, t);
         let points = self.shape.line(at, t);
         let jet = self.query.surfaces[surface].function.about(points, work);
         super::policy::seen_from_front(jet, kind, t, self.negative(surface))
