@@ -156,18 +156,4 @@ impl Quadratic {
         let error = self.e + factor.abs() * e + (16.0 * U * size + TINY);
         Self::sealed(self.c - factor * p.c, l, q, error, size)
     }
-
-    /// Lower bound over `(a, b)` of `self(s, a, b) - upper(a, b)` at the fixed `s`, of the polynomials alone: the errors
-    /// are not looked at.
-    #[must_use]
-    pub fn rise_at(&self, s: f64, upper: &Paraboloid) -> f64 {
-        let (at, size) = self.at(s);
-        let d = Paraboloid {
-            c: at.c - upper.c,
-            l: std::array::from_fn(|i| at.l[i] - upper.l[i]),
-            q: std::array::from_fn(|i| at.q[i] - upper.q[i]),
-        };
-        let slack = 16.0 * U * (size + upper.size());
-        (d.lower_bound() - slack).next_down()
-    }
 }

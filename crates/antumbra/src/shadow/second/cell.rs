@@ -252,7 +252,7 @@ fn core(
 
 /// Where the parameters of a slab lie, seen from a sheet in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Beyond {
+pub(super) enum Beyond {
     Above,
     Below,
     Both,
@@ -261,7 +261,7 @@ enum Beyond {
 /// The sheet of a core nearest to the expected place of the least value, proved to lie in the core on all rays of the cell.
 ///
 /// An end of the core does, but where the sheets cross the core may lie on either side of it.
-fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, Beyond) {
+pub(super) fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, Beyond) {
     let expected = plan.sheet(0.0);
     let proved = |a: &Sheet, b: &Sheet| a.certainly_at_most(b, cell.part);
     let (sheet, beyond) = match cell.shape.nearest(&core.lo, &expected, &core.hi, plan.margin()) {
@@ -277,7 +277,7 @@ fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, Beyond) {
 /// **Lemma (sheet).** Let `g''/2 >= m >= 0` in the slab, and `t_0` in it. With `d = g'(t_0)` and `x = t - t_0`, Taylor's
 /// formula gives `g(t) >= g(t_0) + d x + m x^2`. That is at least `g(t_0) - d^2/(4m)`, at least `g(t_0) - |d| reach` if `|x|` is at
 /// most `reach`, and at least `g(t_0)` where `d x >= 0`.
-fn fall(beyond: Beyond, slope: Interval, bend: f64, reach: f64) -> f64 {
+pub(super) fn fall(beyond: Beyond, slope: Interval, bend: f64, reach: f64) -> f64 {
     let steepness = match beyond {
         Beyond::Both => slope.magnitude(),
         Beyond::Above => -slope.lo(),

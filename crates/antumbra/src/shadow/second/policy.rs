@@ -226,6 +226,12 @@ pub(super) struct Plan {
 }
 
 impl Plan {
+    /// Around a given sheet.
+    #[cfg(test)]
+    pub(super) fn around(middle: Sheet, width: f64) -> Self {
+        Self { middle, width, bend: 1.0 }
+    }
+
     pub(super) fn slopes(&self) -> [f64; 2] {
         self.middle.slopes
     }

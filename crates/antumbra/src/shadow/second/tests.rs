@@ -1,6 +1,7 @@
 //! The steps one by one, on functions of which everything is known.
-use super::cell::{self, Answer, look};
-use super::slab::{Cell, Kind, Slab, State};
+use super::cell::{self, Answer, Beyond, fall, level, look};
+use super::policy::Plan;
+use super::slab::{Cell, Convexity, Kind, Slab, State};
 use crate::eval::{Gradient, Inclusion, JetPoint, QuadraticPoint, Workspace};
 use crate::geom::{Box3, Clip, Rect, Sheet, Vec3};
 use crate::shadow::ledger::Ledger;
@@ -151,7 +152,9 @@ fn a_convex_range_must_not_grow() {
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut scratch, mut work, mut cost) = (cell::Scratch::default(), Workspace::default(), Cost::default());
     // g'' > 0 up to z = 0.3845 only: here it is proved, and the valley's floor is at 0.3.
-    let convex = Slab { surface: 1, lo: Sheet::level(0.05), hi: Sheet::level(0.37), state: State::Convex(Kind::Plain) };
+    let (lo, hi) = (Sheet::level(0.05), Sheet::level(0.37));
+    let known = Convexity { kind: Kind::Plain, bend: 0.0, least_at: Sheet::level(0.3) };
+    let convex = Slab { surface: 1, lo, hi, state: State::Convex(known) };
     let mut state = 5;
     let mut seen = 0;
     for _ in 0..200 {
@@ -170,18 +173,98 @@ fn a_convex_range_must_not_grow() {
         }
         // What is certified is true at every sampled place, and the certificate ends where convexity does.
         let wide = Slab { hi: Sheet::level(0.40), ..convex };
-        assert!(!cell.certainly_convex(&wide, Kind::Plain, &mut work, &mut cost));
+        assert_eq!(cell.bend(&wide, Kind::Plain, &mut work, &mut cost), None);
     }
     assert!(seen > 20, "{seen}");
 }
 
-/// With the sheets of the main slab exchanged, what lies beyond its "upper" end is the other valley.
+/// Bounds of derivatives hold for the true ones: `g''/2` throughout a slab, `g'` on a sheet; and they are no wider than needed.
+#[test]
+fn bends_and_slopes_are_enclosed() {
+    let (surfaces, receiver, light) = (surfaces(), receiver(), light(0.1));
+    let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
+    let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
+    let (mut work, mut cost, mut state) = (Workspace::default(), Cost::default(), 3);
+    let cell = Cell::new(&query, &[1.0; 2], [Interval::new(-1.0, 0.0), Interval::new(0.5, 1.0)]);
+    let (lo, hi) = (Sheet { k: 0.2, slopes: [0.01, 0.0] }, Sheet { k: 0.35, slopes: [0.0, 0.01] });
+    let slab = Slab { surface: 1, lo, hi, state: State::Outer };
+    let bend = cell.bend(&slab, Kind::Plain, &mut work, &mut cost).unwrap();
+    let on_sheet = cell.slope(&Slab { hi: lo, ..slab }, Kind::Plain, &mut work, &mut cost);
+    let (mut least, mut slopes) = (f64::INFINITY, Interval::EMPTY);
+    for _ in 0..2000 {
+        let (u, v) = (0.5 * random(&mut state) - 0.5, 0.25 * random(&mut state) + 0.75);
+        let q = light.point(u, v);
+        let at = |t: f64| valleys((q * t).0, |k| k);
+        let place = |s: &Sheet| s.k + s.slopes[0] * u + s.slopes[1] * v;
+        let (from, to) = (place(&lo), place(&hi));
+        let (t, h) = (from + 0.5 * (1.0 + random(&mut state)) * (to - from), 1e-3);
+        least = least.min(0.5 * (at(t + h) - 2.0 * at(t) + at(t - h)) / (h * h));
+        let slope = (at(from + h) - at(from - h)) / (2.0 * h);
+        slopes = slopes.hull(Interval::point(slope));
+    }
+    assert!(bend <= least + 1e-3 && least < bend + 2.0, "{bend}, {least}");
+    assert!(on_sheet.lo() <= slopes.lo() + 1e-3 && slopes.hi() <= on_sheet.hi() + 1e-3, "{on_sheet:?}, {slopes:?}");
+    assert!(on_sheet.width() < 1.5 * slopes.width() + 0.1, "{on_sheet:?}, {slopes:?}");
+}
+
+/// Convex functions fall below their value on a sheet by no more than was said, and parabolas by just that.
+#[test]
+fn a_convex_function_falls_no_deeper() {
+    let mut state = 11;
+    let mut used = 0.0_f64;
+    for round in 0..2000 {
+        let [c, d, quartic] = [random(&mut state), 3.0 * random(&mut state), 5.0 * (1.0 + random(&mut state))];
+        // g = d x + m x^2 + (quartic) x^4 - c x^3, x = t - t_0: g''/2 = m - 3 c x + 6 quartic x^2 >= m - 3 c^2 / (8 quartic).
+        let quartic = if round % 3 == 0 { 0.0 } else { quartic };
+        let c = if round % 3 == 0 { 0.0 } else { c };
+        let m = 2.0 * (1.0 + random(&mut state)) + 1e-3;
+        let bend = m - if quartic > 0.0 { 0.375 * c * c / quartic } else { 0.0 };
+        if bend < 0.0 {
+            continue;
+        }
+        let reach = 1.0 + random(&mut state);
+        for (beyond, from, to) in
+            [(Beyond::Both, -reach, reach), (Beyond::Above, 0.0, reach), (Beyond::Below, -reach, 0.0)]
+        {
+            let said = fall(beyond, Interval::new(d - 1e-3, d + 1e-3), bend, reach);
+            let g = |x: f64| x * (d + x * (m + x * (quartic * x - c)));
+            let deepest = (0..=400).map(|k| g(from + (to - from) * f64::from(k) / 400.0)).fold(0.0, f64::min);
+            assert!(-deepest <= said, "{beyond:?}: {d} {m} {c} {quartic}, reach {reach}: {deepest}, {said}");
+            used = used.max(-deepest / said.max(1e-2));
+        }
+    }
+    assert!(used > 0.98, "{used}: bounds are tight for parabolas");
+    // Without bend it is a line, and nothing falls where it rises.
+    assert!((fall(Beyond::Both, Interval::new(-2.0, 1.0), 0.0, 0.5) - 1.0).abs() < 1e-12);
+    assert_eq!(fall(Beyond::Above, Interval::new(0.0, 1.0), 0.0, 0.5), 0.0);
+    assert!(fall(Beyond::Above, Interval::new(-0.1, 1.0), 0.0, 0.5) > 0.0);
+    assert!(!fall(Beyond::Both, Interval::ENTIRE, 1.0, 0.5).is_finite(), "nothing known");
+}
+
+/// A sheet of which not all is proved to lie in the core is none; where the core's sheets cross, its end has both sides.
 #[test]
 fn sheets_in_the_wrong_order_prove_nothing() {
-    let (lower, upper) = (Sheet { k: 0.3, slopes: [0.4, 0.0] }, Sheet { k: 0.3, slopes: [-0.4, 0.0] });
+    let (surfaces, receiver, light) = (surfaces(), receiver(), light(0.1));
+    let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
+    let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let unit = Interval::new(-1.0, 1.0);
-    assert!(!lower.certainly_at_most(&upper, [unit, unit]), "they cross at u = 0");
-    assert!(lower.certainly_at_most(&upper, [Interval::new(-1.0, 0.0), unit]));
+    let cell = Cell::new(&query, &[1.0; 2], [unit, unit]);
+    let core = |lo, hi| Slab { surface: 1, lo, hi, state: State::Outer };
+    let plan = |k: f64, slope: f64| Plan::around(Sheet { k, slopes: [slope, 0.0] }, 0.01);
+    let straight = core(Sheet::level(0.2), Sheet::level(0.4));
+    let found = |core: &Slab, plan: &Plan| {
+        let (slab, beyond) = level(&cell, core, plan);
+        assert_eq!(slab.lo, slab.hi);
+        (slab.lo, beyond)
+    };
+    assert_eq!(found(&straight, &plan(0.3, 0.05)), (Sheet { k: 0.3, slopes: [0.05, 0.0] }, Beyond::Both));
+    assert_eq!(found(&straight, &plan(0.1, 0.0)), (straight.lo, Beyond::Above));
+    assert_eq!(found(&straight, &plan(0.5, 0.0)), (straight.hi, Beyond::Below));
+    let (sheet, beyond) = found(&straight, &plan(0.3, 0.2));
+    assert!(sheet == straight.lo && beyond == Beyond::Above || sheet == straight.hi && beyond == Beyond::Below);
+    let crossed = core(Sheet { k: 0.3, slopes: [0.2, 0.0] }, Sheet { k: 0.32, slopes: [-0.2, 0.0] });
+    assert_eq!(found(&crossed, &plan(0.1, 0.0)), (crossed.lo, Beyond::Both));
+    assert_eq!(found(&crossed, &plan(0.5, 0.0)), (crossed.hi, Beyond::Both));
 }
 
 /// A slab is looked at as a whole, whichever sheet is the lower one.
