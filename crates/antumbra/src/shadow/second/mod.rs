@@ -6,8 +6,9 @@
 //!
 //! * **Slabs** between two sheets `t = k + u_slope u + v_slope v`, sheared so that the least value stays in the middle
 //!   ([`slab`]). Over a parallel slab a quadratic form of a polynomial of degree 2 is exact.
-//! * **Core convexity**: once convex in t, a long core needs but one thin slab ([`cell`]).
-//! * **Elimination** of t: bounds of the least value as quadratic polynomials over the light
+//! * **Convex cores**: where the function is proved convex in t, its value and slope on one sheet bound its least value
+//!   ([`cell`]).
+//! * **Elimination** of t elsewhere: bounds of the least value as quadratic polynomials over the light
 //!   ([`antumbra_interval::quadratic`]).
 //! * **Strips**: certified areas beside quadratic curves, and the band that stays unknown ([`crate::geom::strips`]).
 //! * **Cropped subdivision**: a cell is divided along the silhouette, and only the band goes on.
