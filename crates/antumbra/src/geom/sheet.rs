@@ -55,10 +55,10 @@ impl Sheet {
         self.minus(o, part).hi() <= 0.0
     }
 
-    /// Upper bound of the distance to another sheet over the part.
+    /// Upper bound of how far another sheet lies above this one over the part, at least 0.
     #[must_use]
-    pub fn distance(&self, o: &Self, part: [Interval; 2]) -> f64 {
-        self.minus(o, part).magnitude()
+    pub fn rise_to(&self, o: &Self, part: [Interval; 2]) -> f64 {
+        o.minus(self, part).hi().max(0.0)
     }
 
     /// The sheet as a form, `u` and `v` given as forms.
@@ -88,8 +88,9 @@ mod tests {
             let gap = (above.k - below.k) - 0.5 * ((slopes[0] - 0.1).abs() * 2.0 + (slopes[1] + 0.2).abs() * 0.2);
             assert!(gap.abs() < 1e-14, "{gap}: no more than needed");
         }
-        let far = sheet.distance(&Sheet::level(0.0), part);
+        let far = Sheet::level(0.0).rise_to(&sheet, part);
         assert!((far - (0.5 + 0.07 - 0.02)).abs() < 1e-14, "{far}: at u = 0.7, v = 0.1");
+        assert_eq!((sheet.rise_to(&sheet, part), sheet.rise_to(&Sheet::level(0.0), part)), (0.0, 0.0));
         assert_eq!(sheet.below(sheet.slopes, part), sheet, "the same sheet is its own cover");
         assert!(
             !Sheet::level(0.5).certainly_at_most(&sheet, part) && !sheet.certainly_at_most(&Sheet::level(0.5), part)

@@ -173,25 +173,24 @@ fn narrow(
         _ => {
             let whole =
                 Slab { lo: slab.lo.below(plan.slopes(), part), hi: slab.hi.above(plan.slopes(), part), ..*slab };
-            let (core, bend) = core(cell, &whole, &plan, s, work, cost);
-            if core.hi != whole.hi {
+            let (core, bend) = core(cell, slab, &whole, &plan, s, work, cost);
+            if core != *slab && core.hi != whole.hi {
                 s.stack.push(Slab { lo: core.hi, hi: whole.hi, state: State::Outer, ..*slab });
             }
-            if core.lo != whole.lo {
+            if core != *slab && core.lo != whole.lo {
                 s.stack.push(Slab { lo: whole.lo, hi: core.lo, state: State::Outer, ..*slab });
             }
             (core, bend.map(|(kind, bend)| Convexity { kind, bend, least_at }))
         }
     };
     if let Some(convex) = convex {
-        let (level, beyond) = level(cell, &core, &plan);
+        let (level, reach) = level(cell, &core, &plan);
         let least = cell.form(&level, convex.kind, work, cost).eliminate();
         let hides = cell.inside(&level);
         if hides && least.certainly_negative_somewhere() {
             return Settled::DarkCell;
         }
-        let reach = level.lo.distance(&core.lo, part).max(level.lo.distance(&core.hi, part));
-        let fall = fall(beyond, cell.slope(&level, convex.kind, work, cost), convex.bend, reach);
+        let fall = fall(cell.slope(&level, convex.kind, work, cost), convex.bend, reach);
         if fall.is_finite() {
             let least = least.lowered(fall);
             if !least.certainly_positive() {
@@ -214,9 +213,10 @@ fn narrow(
 }
 
 /// The widest part around the expected least value that is proved convex enough, with a lower bound of `g''/2` there; else the
-/// narrowest one that was tried. Its ends are those of the whole slab, or sheets parallel to them.
+/// narrowest one that was tried. It is the slab itself, or its ends are those of its parallel cover `whole` or between them.
 fn core(
     cell: &Cell<'_>,
+    slab: &Slab,
     whole: &Slab,
     plan: &Plan,
     s: &mut Scratch,
@@ -226,7 +226,7 @@ fn core(
     let mut last = None;
     for (k, size) in CORES.into_iter().enumerate() {
         let part = match size {
-            None => *whole,
+            None => *slab,
             Some(size) => {
                 let [lo, hi] = [-size, size].map(|widths| plan.sheet(widths));
                 let cut_lo = cell.shape.above(&lo, &whole.lo, plan.width);
@@ -247,48 +247,43 @@ fn core(
             break;
         }
     }
-    last.unwrap_or((*whole, None))
+    last.unwrap_or((*slab, None))
 }
 
-/// Where the parameters of a slab lie, seen from a sheet in it.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Beyond {
-    Above,
-    Below,
-    Both,
-}
-
-/// The sheet of a core nearest to the expected place of the least value, proved to lie in the core on all rays of the cell.
+/// The sheet of a core nearest to the expected place of the least value, proved to lie in the core on all rays of the cell; and
+/// bounds of how far the core reaches below and above it.
 ///
-/// An end of the core does, but where the sheets cross the core may lie on either side of it.
-pub(super) fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, Beyond) {
+/// Where values fall until the rays leave the region, the last sheet that is inside of it: beyond, nothing hides.
+pub(super) fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [f64; 2]) {
+    let part = cell.part;
     let expected = plan.sheet(0.0);
-    let proved = |a: &Sheet, b: &Sheet| a.certainly_at_most(b, cell.part);
-    let (sheet, beyond) = match cell.shape.nearest(&core.lo, &expected, &core.hi, plan.margin()) {
-        Nearest::Middle if proved(&core.lo, &expected) && proved(&expected, &core.hi) => (expected, Beyond::Both),
-        Nearest::Lower => (core.lo, if proved(&core.lo, &core.hi) { Beyond::Above } else { Beyond::Both }),
-        _ => (core.hi, if proved(&core.lo, &core.hi) { Beyond::Below } else { Beyond::Both }),
+    let in_core = |sheet: &&Sheet| core.lo.certainly_at_most(sheet, part) && sheet.certainly_at_most(&core.hi, part);
+    let sheet = match cell.shape.nearest(&core.lo, &expected, &core.hi, plan.margin()) {
+        Nearest::Middle if in_core(&&expected) => expected,
+        Nearest::Lower => core.lo,
+        _ => *cell.last_inside(core.surface).filter(in_core).unwrap_or(&core.hi),
     };
-    (Slab { lo: sheet, hi: sheet, state: State::Outer, ..*core }, beyond)
+    // The core is all that lies between its sheets, whichever is the lower one.
+    let below = core.lo.rise_to(&sheet, part).max(core.hi.rise_to(&sheet, part));
+    let above = sheet.rise_to(&core.lo, part).max(sheet.rise_to(&core.hi, part));
+    (Slab { lo: sheet, hi: sheet, state: State::Outer, ..*core }, [below, above])
 }
 
-/// How far below its value on a sheet the least value over a convex slab may lie.
+/// How far below its value on a sheet the least value over a convex slab may lie, which reaches so far below and above it.
 ///
 /// **Lemma (sheet).** Let `g''/2 >= m >= 0` in the slab, and `t_0` in it. With `d = g'(t_0)` and `x = t - t_0`, Taylor's
-/// formula gives `g(t) >= g(t_0) + d x + m x^2`. That is at least `g(t_0) - d^2/(4m)`, at least `g(t_0) - |d| reach` if `|x|` is at
-/// most `reach`, and at least `g(t_0)` where `d x >= 0`.
-pub(super) fn fall(beyond: Beyond, slope: Interval, bend: f64, reach: f64) -> f64 {
-    let steepness = match beyond {
-        Beyond::Both => slope.magnitude(),
-        Beyond::Above => -slope.lo(),
-        Beyond::Below => slope.hi(),
+/// formula gives `g(t) >= g(t_0) + d x + m x^2`. That is at least `g(t_0)` where `d x >= 0`; elsewhere at least
+/// `g(t_0) - d^2/(4m)`, and at least `g(t_0) - |d| |x|`.
+pub(super) fn fall(slope: Interval, bend: f64, [below, above]: [f64; 2]) -> f64 {
+    let one_side = |steepness: f64, reach: f64| {
+        if steepness <= 0.0 || reach <= 0.0 {
+            return 0.0;
+        }
+        let (four, line) = (mul_down(4.0, bend), mul_up(steepness, reach));
+        let parabola = if four > 0.0 { div_up(mul_up(steepness, steepness), four) } else { f64::INFINITY };
+        parabola.min(line)
     };
-    if steepness <= 0.0 {
-        return 0.0;
-    }
-    let (four, line) = (mul_down(4.0, bend), mul_up(steepness, reach));
-    let parabola = if four > 0.0 { div_up(mul_up(steepness, steepness), four) } else { f64::INFINITY };
-    parabola.min(line)
+    one_side(slope.hi(), below).max(one_side(-slope.lo(), above))
 }
 
 /// The main slab, and which of its ends are not the core's: only sheets proved to lie inside of the core are ends of it.

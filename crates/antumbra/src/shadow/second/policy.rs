@@ -163,6 +163,12 @@ impl Shape {
                 slopes = [0.0; 2];
             }
         }
+        // At an end it follows that.
+        if t >= last - 0.05 * width {
+            slopes = hi.slopes;
+        } else if t <= first + 0.05 * width {
+            slopes = lo.slopes;
+        }
         let k = t - slopes[0] * self.centre[0] - slopes[1] * self.centre[1];
         Plan { middle: Sheet { k, slopes }, width, bend: g.second }
     }

@@ -2,7 +2,7 @@
 use super::super::rectangle::Query;
 use super::policy::{Extent, Shape};
 use crate::eval::{PointJet, Workspace};
-use crate::geom::{Box3, Fan, Passage, Sheet};
+use crate::geom::{Box3, Fan, Leaving, Passage, Sheet};
 use crate::trace::{Cost, Sign};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Jet, SlopeOf};
@@ -55,6 +55,8 @@ pub(super) struct Cell<'a> {
     fan: Fan,
     directions: Box3,
     passages: Vec<Passage>,
+    /// For surfaces that the clip cuts, if all rays begin inside of it: where they leave it.
+    leaving: Vec<Option<Leaving>>,
     reach: &'a [f64],
 }
 
@@ -63,15 +65,22 @@ impl<'a> Cell<'a> {
     pub(super) fn new(query: &'a Query<'a>, reach: &'a [f64], part: [Interval; 2]) -> Self {
         let fan = Fan::towards(query.receiver.point, query.light, part[0], part[1]);
         let directions = fan.directions();
-        let passages = query.surfaces.iter().map(|at| at.passage(&fan.apex, &directions)).collect();
+        let symbols = [Affine::spanning(1, part[0]), Affine::spanning(2, part[1])];
+        let passages: Vec<Passage> = query.surfaces.iter().map(|at| at.passage(&fan.apex, &directions)).collect();
+        let leaving = query.surfaces.iter().zip(&passages).map(|(at, passage)| {
+            let cuts = at.region == at.clip && passage.inner.contains(0.0);
+            if cuts { at.clip.leaving(&fan, &symbols) } else { None }
+        });
+        let leaving = leaving.collect();
         Self {
             query,
             part,
             shape: Shape::of(query.light, query.receiver.point.mid(), part),
-            symbols: [Affine::spanning(1, part[0]), Affine::spanning(2, part[1])],
+            symbols,
             fan,
             directions,
             passages,
+            leaving,
             reach,
         }
     }
@@ -83,8 +92,9 @@ impl<'a> Cell<'a> {
     /// What of a slab is inside the surface's region: beyond it nothing occludes. `None` if nothing is.
     ///
     /// A parameter of the slab that is not beyond the region on every ray lies in `outer`, so it may be cut off at the ends of
-    /// that. That pays only where the clip cuts the surface: elsewhere it would but tilt the sheets. A convex slab stays as it is:
-    /// it must not grow, not even where its sheets already lie inside.
+    /// that; and below the sheet beyond which no ray is inside: if the slab's sheets are in order, what it has inside is
+    /// between its lower sheet and that one. That pays only where the clip cuts the surface: elsewhere it would but tilt the
+    /// sheets. A convex slab must not grow: it is cut only by a sheet that is proved to lie in it on all rays.
     pub(super) fn clipped(&self, slab: &Slab) -> Option<Slab> {
         let outer = self.passages[slab.surface].outer;
         let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
@@ -100,6 +110,16 @@ impl<'a> Cell<'a> {
             }
             if outer.hi() < f64::INFINITY && hi.certainly_at_most(&slab.hi, self.part) {
                 inside.hi = hi;
+            }
+        }
+        if let Some(Leaving { outer, .. }) = &self.leaving[slab.surface] {
+            let proved = |a: &Sheet, b: &Sheet| a.certainly_at_most(b, self.part);
+            let pays = match slab.state {
+                State::Convex(_) => proved(&slab.lo, outer) && proved(outer, &slab.hi),
+                _ => proved(&slab.lo, &slab.hi) && self.shape.above(&inside.hi, outer, 0.0),
+            };
+            if pays {
+                inside.hi = *outer;
             }
         }
         Some(inside)
@@ -118,15 +138,25 @@ impl<'a> Cell<'a> {
 
     /// Whether a negative value at any parameter of the slab, on a ray, proves that the ray is hidden: it must lie between
     /// the front and the light, inside the region together with the front, on all rays, and where f has been proved
-    /// continuous from the apex on.
+    /// continuous from the apex on. (Regions are convex: what is inside at the apex and at the sheet where rays leave is so in
+    /// between.)
     pub(super) fn inside(&self, slab: &Slab) -> bool {
         let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
         let passage = &self.passages[slab.surface];
+        let before =
+            |sheet: &Sheet| slab.lo.certainly_at_most(sheet, self.part) && slab.hi.certainly_at_most(sheet, self.part);
+        let in_region = t.is_subset_of(passage.inner) || self.last_inside(slab.surface).is_some_and(before);
         self.query.fronts[slab.surface].is_some_and(|front| {
             front.at <= t.lo()
                 && t.hi() <= self.reach[slab.surface]
-                && t.is_subset_of(passage.inner.intersection(Interval::new(0.0, 1.0)))
+                && t.is_subset_of(Interval::new(0.0, 1.0))
+                && in_region
         })
+    }
+
+    /// A sheet up to which all rays are inside the region of a surface that the clip cuts.
+    pub(super) fn last_inside(&self, surface: usize) -> Option<&Sheet> {
+        self.leaving[surface].as_ref().and_then(|leaving| leaving.inner.as_ref())
     }
 
     /// The points of the slab, `s` running from one sheet to the other.
