@@ -15,7 +15,7 @@ mod light;
 #[allow(dead_code, reason = "other tests use the rest")]
 mod sampler;
 
-use antumbra::scene::{Scene, preset};
+use antumbra::scene::{Scene, named};
 use claims::{Check, Tally, check};
 
 /// Adds the check of one scene, of which nothing may be wrong.
@@ -30,7 +30,7 @@ fn add(tally: &mut Tally, name: &str, scene: &Scene, of: Check) {
 fn every_claim_holds_on_random_rays() {
     let mut tally = Tally::default();
     for name in ["orthocircle", "chubs", "kusner", "mcmullen"] {
-        let scene = preset(name).unwrap().unwrap();
+        let scene = named(name).unwrap().unwrap();
         for (scale, width, hits) in [(1.0, 1.0 / 255.0, 5), (1.0, 1.0 / 4096.0, 2), (4.0, 1.0 / 255.0, 2)] {
             add(&mut tally, name, &scene, Check { scale, width, hits, ..Check::default() });
         }
@@ -44,7 +44,7 @@ fn every_claim_holds_on_random_rays() {
 fn claims_of_other_scenes_hold() {
     let mut tally = Tally::default();
     for (name, floor) in [("sphere", true), ("torus", true), ("gyroid", false), ("tangle", true), ("chubs", true)] {
-        let scene = preset(name).unwrap().unwrap();
+        let scene = named(name).unwrap().unwrap();
         add(&mut tally, name, &scene, Check { floor, scale: 2.0, ..Check::default() });
     }
     for text in [

@@ -21,7 +21,7 @@ use super::rectangle::Query;
 use super::visible::{Bracket, Penumbra, Tolerance};
 use crate::eval::Workspace;
 use crate::geom::strips::{Areas, Band, Curve};
-use crate::geom::{Clip, Fan, Sheet};
+use crate::geom::{Fan, Sheet};
 use crate::trace::{Cost, Piece, Surface, certainly_continuous};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
@@ -129,10 +129,7 @@ pub(super) fn fraction(
 ) -> Fraction {
     let Scratch { cell: scratch, slabs, ledger, parts, claims, .. } = s;
     let most = match tolerance.penumbra {
-        Penumbra::Auto => {
-            let cut = query.surfaces.iter().any(|at| at.region == at.clip && at.clip != Clip::Everywhere);
-            cost.evaluations + policy::fair(tolerance.width, cut)
-        }
+        Penumbra::Auto => cost.evaluations + policy::fair(tolerance.width),
         _ => u64::MAX,
     };
     ledger.clear();

@@ -283,15 +283,13 @@ pub(super) fn seen_from_front(f: PointJet, kind: Kind, t: f64, negative: bool) -
     }
 }
 
-/// Evaluations that are fair for one hit: the second-order method needs at most about `width^-0.3`. Where a clip cuts the
-/// surface it often fails: then less is fair.
-pub(super) fn fair(width: f64, cut: bool) -> u64 {
-    let most = if cut { 0.2 * FAIR } else { FAIR };
-    (most * (1.0 / (255.0 * width)).max(1.0).sqrt()) as u64
+/// Evaluations that are fair for one hit: the second-order method needs at most about `width^-0.3`.
+pub(super) fn fair(width: f64) -> u64 {
+    (FAIR * (1.0 / (255.0 * width)).max(1.0).sqrt()) as u64
 }
 
 /// Whether the method is worth trying: it has settled hits of late, or it is time to try again. After each failure but the
-/// first the pause is twice as long.
+/// first two the pause is twice as long.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Trust {
     pause: u32,
@@ -307,7 +305,7 @@ impl Trust {
 
     pub(super) fn tell(&mut self, settled: bool) {
         self.failures = if settled { 0 } else { self.failures + 1 };
-        self.pause = if self.failures > 1 { 4 << self.failures.min(6) } else { 0 };
+        self.pause = if self.failures > 2 { 1 << (self.failures.min(6) - 2) } else { 0 };
     }
 }
 
