@@ -228,7 +228,7 @@ fn core(
         let part = match size {
             None => *slab,
             Some(size) => {
-                let [lo, hi] = [-size, size].map(|widths| plan.sheet(widths));
+                let [lo, hi] = plan.around_by(size);
                 let cut_lo = cell.shape.above(&lo, &whole.lo, plan.width);
                 let cut_hi = cell.shape.above(&whole.hi, &hi, plan.width);
                 let (lo, hi) = (if cut_lo { lo } else { whole.lo }, if cut_hi { hi } else { whole.hi });
@@ -283,7 +283,7 @@ pub(super) fn fall(slope: Interval, bend: f64, [below, above]: [f64; 2]) -> f64 
         let parabola = if four > 0.0 { div_up(mul_up(steepness, steepness), four) } else { f64::INFINITY };
         parabola.min(line)
     };
-    one_side(slope.hi(), below).max(one_side(-slope.lo(), above))
+    one_side(slope.hi(), below).max(one_side((-slope).hi(), above))
 }
 
 /// The main slab, and which of its ends are not the core's: only sheets proved to lie inside of the core are ends of it.

@@ -242,6 +242,11 @@ impl Plan {
         self.middle.slopes
     }
 
+    /// The sheets so many widths below and above the middle.
+    pub(super) fn around_by(&self, widths: f64) -> [Sheet; 2] {
+        [self.sheet(-widths), self.sheet(widths)]
+    }
+
     /// The sheet so many widths beyond the middle.
     pub(super) fn sheet(&self, widths: f64) -> Sheet {
         Sheet { k: self.middle.k + widths * self.width, ..self.middle }
