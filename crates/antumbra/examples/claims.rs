@@ -4,7 +4,7 @@
 //!
 //! `--hits`: penumbra hits for each scene, light (as it is, four times as wide) and tolerance (1/255, 1/4096). `--rays`: for each
 //! hit, at least; every claim gets some. Scenes: names of presets and of the gallery, by default the paper's four. Prints a
-//! line for each combination (clips that are balls are refused, the sampler does not know them), then every claim that is wrong, and exits with 1 if there is one.
+//! line for each combination, then every claim that is wrong, and exits with 1 if there is one.
 #![allow(
     clippy::disallowed_methods,
     reason = "the checker is independent on purpose: it uses other functions than the library"
@@ -20,7 +20,6 @@ mod light;
 #[allow(dead_code, reason = "tests use the rest")]
 mod sampler;
 
-use antumbra::geom::Clip;
 use antumbra::scene::{Scene, named};
 use claims::{Check, Tally, check};
 use rayon::prelude::*;
@@ -61,9 +60,6 @@ fn main() -> Result<ExitCode, Box<dyn Error>> {
     let mut wrong = Vec::new();
     for name in &names {
         let scene = named(name).ok_or_else(|| format!("there is no scene `{name}`"))??;
-        if scene.objects.iter().any(|o| matches!(o.clip(), Clip::Ball { .. })) {
-            return Err(format!("`{name}` is clipped by a ball: the sampler knows boxes only").into());
-        }
         for scale in [1.0, 4.0] {
             for parts in [255, 4096] {
                 let of = Check { scale, width: 1.0 / f64::from(parts), ..of };

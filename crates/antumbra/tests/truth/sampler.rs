@@ -53,7 +53,20 @@ impl Judge {
 
     /// Parameters in `[from, to]` at which the ray is inside the region.
     fn inside(&self, p: &Point, d: &Point, from: f64, to: f64) -> Option<[f64; 2]> {
-        let Clip::Box(b) = self.clip else { return Some([from, to]) };
+        let b = match self.clip {
+            Clip::Box(b) => b,
+            Clip::Ball { center, radius } => {
+                let (q, d) = (Vec3(p.map(|x| x.hi)) - center, Vec3(d.map(|x| x.hi)));
+                let (a, h) = (d.dot(d), q.dot(d));
+                let root = (h * h - a * (q.dot(q) - radius * radius)).sqrt();
+                if root.is_nan() {
+                    return None;
+                }
+                let (lo, hi) = (from.max((-h - root) / a), to.min((-h + root) / a));
+                return (lo < hi).then_some([lo, hi]);
+            }
+            Clip::Everywhere => return Some([from, to]),
+        };
         let (mut lo, mut hi) = (from, to);
         for k in 0..3 {
             let (p, d) = (p[k].hi, d[k].hi);
