@@ -311,3 +311,33 @@ fn what_the_gpu_cannot_do_is_refused_by_name() {
     assert!(matches!(wgsl::Reach::check(&tape("(x y z)^40"), far, far), Err(wgsl::Refusal::Overflow(_))));
     assert!(wgsl::Reach::check(&tape("1 / x"), far, far).is_err());
 }
+
+/// What a GPU that flushes subnormal numbers would answer passes; a contracted product, or a step too many, does not.
+#[test]
+fn the_probe_allows_flushing_and_nothing_else() {
+    let at = |k: usize, [x, y, z]: [f32; 3]| {
+        let [x, y, z] = [R::<true>(x), R(y), R(z)];
+        match k {
+            0 => x + y,
+            1 => x - y,
+            2 => x * y,
+            3 => (x + y) - x,
+            5 => x * y + x * z,
+            7 => x * y + z,
+            9 => ((x + y) + z) - (x + (y + z)),
+            _ => R(0.0),
+        }
+        .0
+    };
+    let (mut contracted, mut stepped) = (0, 0);
+    for [x, y, z, _] in probe::cases() {
+        let case = [x, y, z];
+        for k in [0, 1, 2, 3, 5, 7, 9] {
+            assert_eq!(probe::judge(&mut probe::Report::default(), k, case, at(k, case)), None, "{k} of {case:?}");
+            let step = at(k, case).next_up();
+            stepped += usize::from(probe::judge(&mut probe::Report::default(), k, case, step).is_some());
+        }
+        contracted += usize::from(probe::judge(&mut probe::Report::default(), 7, case, x.mul_add(y, z)).is_some());
+    }
+    assert!(contracted > 1000 && stepped > 50_000, "{contracted} {stepped}");
+}
