@@ -40,23 +40,23 @@ pub struct Proved {
     pub evaluations: [u64; 2],
     /// Seconds of the GPU for surfaces, and per light for the whole of it and for each division; empty without a clock.
     pub seconds: Vec<f64>,
-    /// Items of work: hits of which the light is divided, parts that are divided again, and once more.
-    pub divided: [u64; 3],
+    /// Items of work: hits of which the light is divided, and parts that are divided again.
+    pub divided: [u64; 2],
 }
 
 /// The kernels of one scene, compiled.
 pub struct Kernels {
     primary: ComputePipeline,
     whole: ComputePipeline,
-    /// The light in 8 x 8, then each open part in 4 x 4, twice.
-    cells: [ComputePipeline; 3],
+    /// The light in 8 x 8, then each open part in 4 x 4.
+    cells: [ComputePipeline; 2],
     frame: Frame,
     regions: Vec<Region>,
     lights: Vec<Rect>,
 }
 
 /// Divisions of the light, and of each part that stays open.
-const SPLIT: [u32; 3] = [8, 4, 4];
+const SPLIT: [u32; 2] = [8, 4];
 /// Parts that a list holds for each pixel of the picture; what does not fit is added as it is.
 const PARTS: u64 = 4;
 /// Groups of a pass over a list: enough to fill any GPU, they go on until the list is done.
@@ -83,17 +83,17 @@ impl Kernels {
         let shadow = gpu.module(&format!("{common}\n{}", include_str!("kernels/shadow.wgsl")))?;
         let rest = tolerance.clamp(1e-4, 0.1);
         let cells = |side: u32, split: u32, rest: f64, aspect: f64| {
-            gpu.pipeline(&shadow, "cells", &[("SIDE", f64::from(side)), ("SPLIT", f64::from(split)), ("REST", rest), ("ASPECT", aspect)])
+            gpu.pipeline(
+                &shadow,
+                "cells",
+                &[("SIDE", f64::from(side)), ("SPLIT", f64::from(split)), ("REST", rest), ("ASPECT", aspect)],
+            )
         };
         Ok(Self {
             primary: gpu.pipeline(&primary, "primary", &[])?,
             whole: gpu.pipeline(&shadow, "whole", &[])?,
-            // The last division keeps everything.
-            cells: [
-                cells(1, SPLIT[0], rest, 2.0)?,
-                cells(SPLIT[0], SPLIT[1], rest, 4.0)?,
-                cells(SPLIT[0] * SPLIT[1], SPLIT[2], 2.0, 16.0)?,
-            ],
+            // The last division keeps what is unknown as it is.
+            cells: [cells(1, SPLIT[0], rest, 2.0)?, cells(SPLIT[0], SPLIT[1], 2.0, 2.0)?],
             frame,
             regions,
             lights: lights.to_vec(),
@@ -118,11 +118,11 @@ struct Run<'a> {
     found: Buffer,
     lit: Buffer,
     dark: Buffer,
-    lists: [Buffer; 3],
+    lists: [Buffer; 2],
     spent: Buffer,
     primary: BindGroup,
     whole: BindGroup,
-    cells: [BindGroup; 3],
+    cells: [BindGroup; 2],
 }
 
 impl<'a> Run<'a> {
@@ -135,7 +135,7 @@ impl<'a> Run<'a> {
         let (lit, dark) = (gpu.storage(4 * pixels)?, gpu.storage(4 * pixels)?);
         // Hits to divide: all at most. Then parts.
         let parts = 16 + 16 * PARTS * pixels;
-        let lists = [gpu.storage(16 + 16 * pixels)?, gpu.storage(parts)?, gpu.storage(parts)?];
+        let lists = [gpu.storage(16 + 16 * pixels)?, gpu.storage(parts)?];
         let spent = gpu.storage(16)?;
         let primary = gpu.bind(&kernels.primary, &[(0, &frame), (1, &regions), (2, &found)])?;
         let whole = gpu.bind(
@@ -147,8 +147,7 @@ impl<'a> Run<'a> {
                 [(0, &frame), (1, &regions), (2, &found), (3, &lit), (4, &dark), (5, work), (6, more), (7, &spent)];
             gpu.bind(&kernels.cells[k], &buffers)
         };
-        // The last pass appends nothing.
-        let cells = [cells(0, &lists[0], &lists[1])?, cells(1, &lists[1], &lists[2])?, cells(2, &lists[2], &lists[0])?];
+        let cells = [cells(0, &lists[0], &lists[1])?, cells(1, &lists[1], &lists[0])?];
         Ok(Self { gpu, kernels, count, frame, found, lit, dark, lists, spent, primary, whole, cells })
     }
 
@@ -174,8 +173,8 @@ impl<'a> Run<'a> {
         proved.evaluations[0] = found.iter().map(|f| u64::from(f[3])).sum();
         proved.pixels = found.iter().map(|f| self.pixel(f)).collect();
         for (k, light) in self.kernels.lights.iter().enumerate() {
-            let [first, second, third] = &self.lists;
-            self.gpu.clear(&[&self.lit, &self.dark, first, second, third, &self.spent]);
+            let [first, second] = &self.lists;
+            self.gpu.clear(&[&self.lit, &self.dark, first, second, &self.spent]);
             let frame = frame.lit_by(k, light);
             for first in (0..self.count).step_by(PIXELS as usize) {
                 go()?;
@@ -183,14 +182,14 @@ impl<'a> Run<'a> {
                 self.gpu.write(&self.frame, bytemuck::bytes_of(&Frame { first, count, ..frame }));
                 let groups = [count.div_ceil(64), 1, 1];
                 let times = self.gpu.run(&[Pass { pipeline: &self.kernels.whole, bind: &self.whole, groups }])?;
-                book(&mut proved, 4 * k + 1, times);
+                book(&mut proved, 3 * k + 1, times);
             }
             for division in 0..SPLIT.len() {
                 go()?;
                 let groups = [if self.gpu.is_software() { GROUPS / 64 } else { GROUPS }, 1, 1];
                 let pass = Pass { pipeline: &self.kernels.cells[division], bind: &self.cells[division], groups };
                 let times = self.gpu.run(&[pass])?;
-                book(&mut proved, 4 * k + 2 + division, times);
+                book(&mut proved, 3 * k + 2 + division, times);
                 let list: u32 = self.gpu.read_first(&self.lists[division])?;
                 proved.divided[division] += u64::from(list);
             }
