@@ -57,7 +57,7 @@ fn forms(count: usize, seed: u64) -> Vec<[[f32; 5]; 3]> {
     let mut random = fastrand::Rng::with_seed(seed);
     let mut form = |case: usize| {
         let scale = |r: &mut fastrand::Rng, low: i32| f32::from_bits(((127 + r.i32(low..2)) as u32) << 23);
-        let low = if case % 3 == 0 { -30 } else { -8 };
+        let low = if case.is_multiple_of(3) { -30 } else { -8 };
         let number = |r: &mut fastrand::Rng| (2.0 * r.f32() - 1.0) * scale(r, low);
         let [c, a, b, d] = [0; 4].map(|_| if random.u8(..) < 16 { 0.0 } else { number(&mut random) });
         [c, (random.f32() * scale(&mut random, -30)).max(FLOOR), a, b, d]
