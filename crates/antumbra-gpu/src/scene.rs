@@ -93,7 +93,10 @@ impl Region {
             // The clip outward, the region inward.
             [clip_lo[k], clip_hi[k]] = outward(clip[k]).map(finite);
             let [lo, hi] = outward(whole[k]).map(finite);
-            [whole_lo[k], whole_hi[k]] = [lo.next_up(), hi.next_down()];
+            // Never subnormal: such a bound might be taken for 0.
+            let normal = |v: f32, tiny: f32| if v.is_subnormal() { tiny } else { v };
+            whole_lo[k] = normal(lo.next_up(), f32::MIN_POSITIVE);
+            whole_hi[k] = normal(hi.next_down(), -f32::MIN_POSITIVE);
         }
         Self { clip_lo, clip_hi, whole_lo, whole_hi }
     }
