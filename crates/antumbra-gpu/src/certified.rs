@@ -55,8 +55,10 @@ pub struct Kernels {
     lights: Vec<Rect>,
 }
 
-/// Divisions of the light by the two passes.
+/// Divisions of the light, and of each part that stays open.
 const SPLIT: [u32; 2] = [8, 4];
+/// Parts that a list holds for each pixel of the picture; what does not fit is added as it is.
+const PARTS: u64 = 4;
 /// Groups of a pass over a list: enough to fill any GPU, they go on until the list is done.
 const GROUPS: u32 = 8192;
 /// Pixels of one dispatch: more would keep a slow GPU too long for its watchdog.
@@ -80,14 +82,18 @@ impl Kernels {
         let primary = gpu.module(&format!("{common}\n{}", include_str!("kernels/primary.wgsl")))?;
         let shadow = gpu.module(&format!("{common}\n{}", include_str!("kernels/shadow.wgsl")))?;
         let rest = tolerance.clamp(1e-4, 0.1);
-        let cells = |side: u32, split: u32, rest: f64| {
-            gpu.pipeline(&shadow, "cells", &[("SIDE", f64::from(side)), ("SPLIT", f64::from(split)), ("REST", rest)])
+        let cells = |side: u32, split: u32, rest: f64, aspect: f64| {
+            gpu.pipeline(
+                &shadow,
+                "cells",
+                &[("SIDE", f64::from(side)), ("SPLIT", f64::from(split)), ("REST", rest), ("ASPECT", aspect)],
+            )
         };
         Ok(Self {
             primary: gpu.pipeline(&primary, "primary", &[])?,
             whole: gpu.pipeline(&shadow, "whole", &[])?,
-            // The last division keeps everything.
-            cells: [cells(1, SPLIT[0], rest)?, cells(SPLIT[0], SPLIT[1], 2.0)?],
+            // The last division keeps what is unknown as it is.
+            cells: [cells(1, SPLIT[0], rest, 2.0)?, cells(SPLIT[0], SPLIT[1], 2.0, 2.0)?],
             frame,
             regions,
             lights: lights.to_vec(),
@@ -127,8 +133,9 @@ impl<'a> Run<'a> {
         let regions = gpu.filled(bytemuck::cast_slice(&kernels.regions), BufferUsages::UNIFORM)?;
         let found = gpu.storage(16 * pixels)?;
         let (lit, dark) = (gpu.storage(4 * pixels)?, gpu.storage(4 * pixels)?);
-        // Hits to divide: all at most. Parts to divide again: what does not fit is added as it is.
-        let lists = [gpu.storage(16 + 8 * pixels)?, gpu.storage(16 + 8 * 4 * pixels)?];
+        // Hits to divide: all at most. Then parts.
+        let parts = 16 + 16 * PARTS * pixels;
+        let lists = [gpu.storage(16 + 16 * pixels)?, gpu.storage(parts)?];
         let spent = gpu.storage(16)?;
         let primary = gpu.bind(&kernels.primary, &[(0, &frame), (1, &regions), (2, &found)])?;
         let whole = gpu.bind(
@@ -140,7 +147,6 @@ impl<'a> Run<'a> {
                 [(0, &frame), (1, &regions), (2, &found), (3, &lit), (4, &dark), (5, work), (6, more), (7, &spent)];
             gpu.bind(&kernels.cells[k], &buffers)
         };
-        // The last pass appends nothing.
         let cells = [cells(0, &lists[0], &lists[1])?, cells(1, &lists[1], &lists[0])?];
         Ok(Self { gpu, kernels, count, frame, found, lit, dark, lists, spent, primary, whole, cells })
     }
@@ -167,7 +173,8 @@ impl<'a> Run<'a> {
         proved.evaluations[0] = found.iter().map(|f| u64::from(f[3])).sum();
         proved.pixels = found.iter().map(|f| self.pixel(f)).collect();
         for (k, light) in self.kernels.lights.iter().enumerate() {
-            self.gpu.clear(&[&self.lit, &self.dark, &self.lists[0], &self.lists[1], &self.spent]);
+            let [first, second] = &self.lists;
+            self.gpu.clear(&[&self.lit, &self.dark, first, second, &self.spent]);
             let frame = frame.lit_by(k, light);
             for first in (0..self.count).step_by(PIXELS as usize) {
                 go()?;
@@ -177,16 +184,16 @@ impl<'a> Run<'a> {
                 let times = self.gpu.run(&[Pass { pipeline: &self.kernels.whole, bind: &self.whole, groups }])?;
                 book(&mut proved, 3 * k + 1, times);
             }
-            for division in 0..2 {
+            for division in 0..SPLIT.len() {
                 go()?;
                 let groups = [if self.gpu.is_software() { GROUPS / 64 } else { GROUPS }, 1, 1];
                 let pass = Pass { pipeline: &self.kernels.cells[division], bind: &self.cells[division], groups };
                 let times = self.gpu.run(&[pass])?;
                 book(&mut proved, 3 * k + 2 + division, times);
-                let list: u32 = self.gpu.read::<u32>(&self.lists[division])?[0];
+                let list: u32 = self.gpu.read_first(&self.lists[division])?;
                 proved.divided[division] += u64::from(list);
             }
-            proved.evaluations[1] += u64::from(self.gpu.read::<u32>(&self.spent)?[0]);
+            proved.evaluations[1] += u64::from(self.gpu.read_first(&self.spent)?);
             let (lit, dark) = (self.gpu.read::<u32>(&self.lit)?, self.gpu.read::<u32>(&self.dark)?);
             // Sums of integers, exact; what is lit and what is hidden are different parts of the light.
             let share = |n: u32| f64::from(n) / f64::from(1_u32 << 30);

@@ -306,7 +306,15 @@ impl Gpu {
 
     /// The content of a buffer.
     pub(crate) fn read<T: bytemuck::Pod>(&self, buffer: &Buffer) -> Result<Vec<T>, Error> {
-        let size = buffer.size();
+        self.read_part(buffer, buffer.size())
+    }
+
+    /// Its first number.
+    pub(crate) fn read_first(&self, buffer: &Buffer) -> Result<u32, Error> {
+        Ok(self.read_part(buffer, 16)?[0])
+    }
+
+    fn read_part<T: bytemuck::Pod>(&self, buffer: &Buffer, size: u64) -> Result<Vec<T>, Error> {
         let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let descriptor = wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false };
         let copy = self.device.create_buffer(&descriptor);

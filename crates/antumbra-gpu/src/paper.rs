@@ -109,7 +109,7 @@ impl Paper {
         let marked = gpu.storage(4 * u64::from(cells))?;
         let found = gpu.storage(16 * u64::from(count))?;
         let blocked = gpu.storage(4 * u64::from(count))?;
-        let list = gpu.storage(4 + 4 * u64::from(count))?;
+        let list = gpu.storage(16 + 4 * u64::from(count))?;
         let spent = gpu.storage(16)?;
         let all = [
             (0, &uniform),
@@ -152,7 +152,7 @@ impl Paper {
             let part = (count - first).min(ITEMS);
             go(&mut out, 2, Frame { first, count: part, ..frame }, part.div_ceil(64))?;
         }
-        out.initial_occluded = gpu.read::<u32>(&list)?[0] as usize;
+        out.initial_occluded = gpu.read_first(&list)? as usize;
         for first in (0..out.initial_occluded as u32).step_by(ITEMS as usize / 16) {
             go(&mut out, 3, Frame { first, count: ITEMS / 16, ..frame }, GROUPS)?;
         }

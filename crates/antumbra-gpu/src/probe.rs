@@ -9,7 +9,7 @@ use std::fmt;
 use wgpu::BufferUsages;
 
 /// What the probe found in order.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Report {
     /// Random triples that were asked.
     pub cases: usize,
@@ -126,7 +126,7 @@ fn tiny_parts([x, y, z]: [f32; 3], value: f32) -> bool {
 /// Bit for bit: proofs would do with either neighbour of an exact value, but all known adapters round to nearest, and only so can the
 /// expressions be told from rewritten ones. Single operations may take subnormal operands and results for 0; expressions with
 /// subnormal parts are not judged.
-fn judge(report: &mut Report, k: usize, [x, y, z]: [f32; 3], found: f32) -> Option<f32> {
+pub(crate) fn judge(report: &mut Report, k: usize, [x, y, z]: [f32; 3], found: f32) -> Option<f32> {
     if k < 3 {
         let flush = |v: f32| if v.abs() < f32::MIN_POSITIVE { 0.0 } else { v };
         let of = |x: f32, y: f32| [x + y, x - y, x * y][k];
@@ -146,8 +146,9 @@ fn judge(report: &mut Report, k: usize, [x, y, z]: [f32; 3], found: f32) -> Opti
         let (r, t) = (sum3(e, [y, z, x]), sum3(e, [z, x, y]));
         let w = [y * z, z * x, x * y];
         let d = w[0].abs() + w[1].abs() + w[2].abs();
-        let size = (x.abs() + r) * (y.abs() + t);
-        (r * t - 0.5 * d) + (x.abs() * e + y.abs() * e) + 28.0 * u * size + antumbra::eval::wgsl::FLOOR
+        let rest = x.abs() * t + r * (y.abs() + t);
+        let pad = 4.0 * u * (x * y).abs() + 28.0 * u * rest;
+        (r * t - 0.5 * d) + (x.abs() * e + y.abs() * e) + pad + antumbra::eval::wgsl::FLOOR
     };
     let wanted = match k {
         3 => (x + y) - x,
@@ -168,7 +169,7 @@ fn judge(report: &mut Report, k: usize, [x, y, z]: [f32; 3], found: f32) -> Opti
 }
 
 /// Random numbers of many sizes, small whole numbers, and subnormal ones.
-fn cases() -> Vec<[f32; 4]> {
+pub(crate) fn cases() -> Vec<[f32; 4]> {
     let mut state = 7_u64;
     let mut bits = move || {
         // SplitMix64 (Steele, Lea, Flood 2014).

@@ -29,6 +29,10 @@ pub(crate) struct Frame {
     pub(crate) forward: [f32; 4],
     pub(crate) right: [f32; 4],
     pub(crate) up: [f32; 4],
+    pub(crate) eye_lo: [f32; 4],
+    pub(crate) forward_lo: [f32; 4],
+    pub(crate) right_lo: [f32; 4],
+    pub(crate) up_lo: [f32; 4],
     pub(crate) dir_e: [f32; 4],
     pub(crate) center: [f32; 4],
     pub(crate) edge_u: [f32; 4],
@@ -89,7 +93,10 @@ impl Region {
             // The clip outward, the region inward.
             [clip_lo[k], clip_hi[k]] = outward(clip[k]).map(finite);
             let [lo, hi] = outward(whole[k]).map(finite);
-            [whole_lo[k], whole_hi[k]] = [lo.next_up(), hi.next_down()];
+            // Never subnormal: such a bound might be taken for 0.
+            let normal = |v: f32, tiny: f32| if v.is_subnormal() { tiny } else { v };
+            whole_lo[k] = normal(lo.next_up(), f32::MIN_POSITIVE);
+            whole_hi[k] = normal(hi.next_down(), -f32::MIN_POSITIVE);
         }
         Self { clip_lo, clip_hi, whole_lo, whole_hi }
     }
@@ -99,8 +106,21 @@ impl Region {
 pub(crate) fn frame(surfaces: &[Surface<'_>], film: &Film) -> Result<(Frame, Vec<Region>), Error> {
     let camera = &film.camera;
     let (right, up) = (camera.right * (1.0 / film.width as f64), camera.up * (1.0 / film.height as f64));
-    // Roundings of the vectors (1/2 each), two products, two sums; half a unit to spare. Dividing by the size of the film took another 2^-52.
-    let size = |k: usize| camera.forward[k].abs() + camera.right[k].abs() + camera.up[k].abs();
+    // Whole multiples of 2^-22 and what they leave: differences of numbers that near are exact in f64.
+    let coarse = |v: Vec3| Vec3(v.0.map(|x| (x * 4_194_304.0).round() / 4_194_304.0));
+    let rest = |v: Vec3| v - coarse(v);
+    if [camera.forward, camera.right, camera.up].iter().any(|v| v.0.iter().any(|x| x.abs() > 1.3)) {
+        return Err(Error::Scene("a camera as wide as this one stays on the processor"));
+    }
+    // Of the small parts, for all pixels: below 2^-23 (1 + width + height) each. Roundings of the vectors (1/2 each), two products, two sums;
+    // and what half pixels lose. Dividing by the size of the film took another 2^-52 of the pixel.
+    let (width, height) = (film.width as f64, film.height as f64);
+    let size = |k: usize| {
+        let parts = rest(camera.forward)[k].abs() + width * rest(right)[k].abs() + height * rest(up)[k].abs();
+        let whole = camera.forward[k].abs() + camera.right[k].abs() + camera.up[k].abs();
+        6.0 * U * parts + 2.0 * U * (right[k].abs() + up[k].abs()) + 1e-15 * whole
+    };
+    let eye = Vec3(camera.eye.0.map(|x| f64::from(ball(Interval::point(x)).0)));
     let fan = film.fan(0..film.width, 0..film.height);
     let directions = fan.directions();
     let mut reach = Interval::EMPTY;
@@ -134,11 +154,15 @@ pub(crate) fn frame(surfaces: &[Surface<'_>], film: &Film) -> Result<(Frame, Vec
         units: UNITS,
         light: 0,
         eye: round(camera.eye),
-        eye_e: errors(|k| 0.5 * U * camera.eye[k].abs()),
-        forward: round(camera.forward),
-        right: round(right),
-        up: round(up),
-        dir_e: errors(|k| 6.0 * U * size(k)),
+        eye_e: errors(|k| U * (camera.eye[k] - eye[k]).abs() + 1e-15 * camera.eye[k].abs()),
+        forward: round(coarse(camera.forward)),
+        right: round(coarse(right)),
+        up: round(coarse(up)),
+        eye_lo: round(camera.eye - eye),
+        forward_lo: round(rest(camera.forward)),
+        right_lo: round(rest(right)),
+        up_lo: round(rest(up)),
+        dir_e: errors(size),
         center: [0.0; 4],
         edge_u: [0.0; 4],
         edge_v: [0.0; 4],
@@ -155,13 +179,13 @@ impl Frame {
 
     /// The same picture under that light.
     pub(crate) fn lit_by(self, index: usize, light: &Rect) -> Self {
-        let size = |k: usize| light.center[k].abs() + light.edge_u[k].abs() + light.edge_v[k].abs();
+        let size = |k: usize| 0.5 * light.center[k].abs() + light.edge_u[k].abs() + light.edge_v[k].abs();
         Self {
             light: index as u32,
             center: round(light.center),
             edge_u: round(light.edge_u),
             edge_v: round(light.edge_v),
-            // Roundings of the vectors (1/2 each), two products and two sums of their size.
+            // Roundings of the vectors (1/2 each), two products, two sums: u (5/2 |C| + 9/2 |U| + 7/2 |V|).
             light_e: errors(|k| 6.0 * U * size(k)),
             ..self
         }

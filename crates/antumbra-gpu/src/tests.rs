@@ -57,7 +57,7 @@ fn forms(count: usize, seed: u64) -> Vec<[[f32; 5]; 3]> {
     let mut random = fastrand::Rng::with_seed(seed);
     let mut form = |case: usize| {
         let scale = |r: &mut fastrand::Rng, low: i32| f32::from_bits(((127 + r.i32(low..2)) as u32) << 23);
-        let low = if case % 3 == 0 { -30 } else { -8 };
+        let low = if case.is_multiple_of(3) { -30 } else { -8 };
         let number = |r: &mut fastrand::Rng| (2.0 * r.f32() - 1.0) * scale(r, low);
         let [c, a, b, d] = [0; 4].map(|_| if random.u8(..) < 16 { 0.0 } else { number(&mut random) });
         [c, (random.f32() * scale(&mut random, -30)).max(FLOOR), a, b, d]
@@ -310,4 +310,34 @@ fn what_the_gpu_cannot_do_is_refused_by_name() {
     assert!(wgsl::Reach::check(&tape("x^4 + y"), far, far).is_ok());
     assert!(matches!(wgsl::Reach::check(&tape("(x y z)^40"), far, far), Err(wgsl::Refusal::Overflow(_))));
     assert!(wgsl::Reach::check(&tape("1 / x"), far, far).is_err());
+}
+
+/// What a GPU that flushes subnormal numbers would answer passes; a contracted product, or a step too many, does not.
+#[test]
+fn the_probe_allows_flushing_and_nothing_else() {
+    let at = |k: usize, [x, y, z]: [f32; 3]| {
+        let [x, y, z] = [R::<true>(x), R(y), R(z)];
+        match k {
+            0 => x + y,
+            1 => x - y,
+            2 => x * y,
+            3 => (x + y) - x,
+            5 => x * y + x * z,
+            7 => x * y + z,
+            9 => ((x + y) + z) - (x + (y + z)),
+            _ => R(0.0),
+        }
+        .0
+    };
+    let (mut contracted, mut stepped) = (0, 0);
+    for [x, y, z, _] in probe::cases() {
+        let case = [x, y, z];
+        for k in [0, 1, 2, 3, 5, 7, 9] {
+            assert_eq!(probe::judge(&mut probe::Report::default(), k, case, at(k, case)), None, "{k} of {case:?}");
+            let step = at(k, case).next_up();
+            stepped += usize::from(probe::judge(&mut probe::Report::default(), k, case, step).is_some());
+        }
+        contracted += usize::from(probe::judge(&mut probe::Report::default(), 7, case, x.mul_add(y, z)).is_some());
+    }
+    assert!(contracted > 1000 && stepped > 50_000, "{contracted} {stepped}");
 }

@@ -85,7 +85,7 @@ impl<const FLUSH: bool> Twin<FLUSH> {
 
     fn sum(c: R<FLUSH>, a: [R<FLUSH>; 3], t: R<FLUSH>) -> Self {
         let w = sum3(c.abs() + t, a);
-        Self::new(c, t + w * (4.0 * U), a)
+        Self::new(c, t + w * (3.0 * U), a)
     }
 
     fn add(self, o: Self) -> Self {
@@ -102,7 +102,7 @@ impl<const FLUSH: bool> Twin<FLUSH> {
 
     fn addk(self, m: f32, r: f32) -> Self {
         let (c, t) = (self.c + R(m), self.e + R(r));
-        Self::new(c, t + (c.abs() + t) * (4.0 * U), self.a)
+        Self::new(c, t + (c.abs() + t) * (3.0 * U), self.a)
     }
 
     fn scale(self, k: f32) -> Self {
@@ -112,11 +112,12 @@ impl<const FLUSH: bool> Twin<FLUSH> {
     }
 
     fn mulk(self, m: f32, r: f32) -> Self {
-        let s = sum3(self.c.abs() + self.e, self.a);
-        let (m, r) = (R(m), R(r));
-        let size = s * (m.abs() + r);
-        let e = self.e * m.abs() + s * r;
-        Self::new(self.c * m, e + size * (20.0 * U) + R::FLOOR, self.a.map(|v| v * m))
+        let (s, p, m, r) = (sum3(self.e, self.a), self.c.abs(), R(m), R(r));
+        let rest = p * r + s * (m.abs() + r);
+        let e = self.e * m.abs() + (p + s) * r;
+        let c = self.c * m;
+        let pad = c.abs() * (3.0 * U) + rest * (20.0 * U);
+        Self::new(c, e + pad + R::FLOOR, self.a.map(|v| v * m))
     }
 
     fn mul(self, o: Self) -> Self {
@@ -125,18 +126,21 @@ impl<const FLUSH: bool> Twin<FLUSH> {
         let q = w[0] + w[1] + w[2];
         let d = w[0].abs() + w[1].abs() + w[2].abs();
         let (p, s) = (self.c.abs(), o.c.abs());
-        let size = (p + r) * (s + t);
+        let rest = p * t + r * (s + t);
         let e = (r * t - d * 0.5) + (p * o.e + s * self.e);
         let a = std::array::from_fn(|k| self.c * o.a[k] + o.c * self.a[k]);
-        Self::new(self.c * o.c + q * 0.5, e + size * (28.0 * U) + R::FLOOR, a)
+        let c = self.c * o.c;
+        let pad = c.abs() * (4.0 * U) + rest * (28.0 * U);
+        Self::new(c + q * 0.5, e + pad + R::FLOOR, a)
     }
 
     fn sqr(self) -> Self {
         let (r, p) = (sum3(self.e, self.a), self.c.abs());
         let h = (r * r) * 0.5;
-        let s = p + r;
         let e = h + (p * 2.0) * self.e;
-        Self::new(self.c * self.c + h, e + (s * s) * (28.0 * U) + R::FLOOR, self.a.map(|v| v * (self.c * 2.0)))
+        let c = self.c * self.c;
+        let pad = c * (4.0 * U) + (r * (p * 2.0 + r)) * (28.0 * U);
+        Self::new(c + h, e + pad + R::FLOOR, self.a.map(|v| v * (self.c * 2.0)))
     }
 
     fn radius(self) -> R<FLUSH> {
@@ -227,7 +231,7 @@ pub(crate) struct TwinSlope<const FLUSH: bool> {
 
 fn b_add<const FLUSH: bool>(x: [R<FLUSH>; 2], y: [R<FLUSH>; 2]) -> [R<FLUSH>; 2] {
     let (m, t) = (x[0] + y[0], x[1] + y[1]);
-    [m, t + (m.abs() + t) * (4.0 * U)]
+    [m, t + (m.abs() + t) * (3.0 * U)]
 }
 
 fn b_neg<const FLUSH: bool>(x: [R<FLUSH>; 2]) -> [R<FLUSH>; 2] {
@@ -236,9 +240,9 @@ fn b_neg<const FLUSH: bool>(x: [R<FLUSH>; 2]) -> [R<FLUSH>; 2] {
 
 fn b_mul<const FLUSH: bool>(x: [R<FLUSH>; 2], y: [R<FLUSH>; 2]) -> [R<FLUSH>; 2] {
     let (p, q) = (x[0].abs(), y[0].abs());
-    let r = (p * y[1] + q * x[1]) + x[1] * y[1];
-    let size = (p + x[1]) * (q + y[1]);
-    [x[0] * y[0], r + size * (20.0 * U) + R::FLOOR]
+    let rest = p * y[1] + x[1] * (q + y[1]);
+    let m = x[0] * y[0];
+    [m, rest * (1.0 + 20.0 * U) + m.abs() * (3.0 * U) + R::FLOOR]
 }
 
 impl<const FLUSH: bool> TwinSlope<FLUSH> {

@@ -49,13 +49,13 @@ fn finished(mut renderer: Renderer) -> Renderer {
 
 /// Presets that the GPU draws, with the least share of pixels and of brackets, in percent, that it has to settle.
 const DRAWN: [(&str, usize, usize); 7] = [
-    ("orthocircle", 60, 85),
-    ("chubs", 60, 85),
-    ("mcmullen", 80, 85),
-    ("kusner", 80, 75),
-    ("sphere", 80, 90),
-    ("torus", 75, 90),
-    ("links", 75, 90),
+    ("orthocircle", 30, 90),
+    ("chubs", 40, 90),
+    ("mcmullen", 70, 85),
+    ("kusner", 70, 80),
+    ("sphere", 80, 95),
+    ("torus", 60, 90),
+    ("links", 50, 80),
 ];
 
 #[test]

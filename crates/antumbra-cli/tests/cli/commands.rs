@@ -241,3 +241,23 @@ fn devices_are_written_directly() {
         assert_eq!(bench.names(), ["p.png"]);
     }
 }
+
+#[test]
+fn devices_are_chosen_and_adapters_listed() {
+    let bench = Bench::new();
+    bench.antumbra(&["info"]).assert().success().stdout(contains("adapters:"));
+    // Whatever is there: a picture.
+    let auto = ["render", "sphere", "--size", "16", "--device", "auto"];
+    bench.antumbra(&auto).assert().success().stderr(contains("wrote sphere.png"));
+    // With an adapter, a GPU's share is told; without one, what is missing.
+    let gpu = bench.antumbra(&["render", "sphere", "--size", "16", "--device", "gpu"]).output().unwrap();
+    let said = String::from_utf8_lossy(&gpu.stderr).into_owned();
+    assert_eq!(gpu.status.success(), said.contains("of their brackets proved"), "{said}");
+    assert!(gpu.status.success() || said.contains("--device auto goes on"), "{said}");
+    // What the GPU does not have, the processor does; the paper's method too.
+    let sine = ["render", "sin(x) + y = 0", "--size", "16", "--device", "auto", "-o", "a.png"];
+    bench.antumbra(&sine).assert().success().stderr(contains("the processor does it"));
+    let paper = ["render", "sphere", "--size", "16", "--device", "auto", "--method", "paper", "-o", "b.png"];
+    bench.antumbra(&paper).assert().success().stderr(contains("the processor does `paper`"));
+    bench.antumbra(&["render", "sphere", "--device", "npu"]).assert().failure().stderr(contains("gpu"));
+}

@@ -19,6 +19,11 @@ struct Frame {
     forward: vec4<f32>,
     right: vec4<f32>,       // half a pixel
     up: vec4<f32>,          // half a pixel
+    // What the five vectors lose by rounding, as floats; `forward`, `right` and `up` are whole multiples of 2^-22.
+    eye_lo: vec4<f32>,
+    forward_lo: vec4<f32>,
+    right_lo: vec4<f32>,
+    up_lo: vec4<f32>,
     dir_e: vec4<f32>,       // of the direction of any pixel, rounding of its computation included
     center: vec4<f32>,
     edge_u: vec4<f32>,
@@ -34,23 +39,29 @@ struct Region { clip_lo: vec4<f32>, clip_hi: vec4<f32>, whole_lo: vec4<f32>, who
 fn runtime_zero() -> u32 { return frame.zero; }
 
 struct Point { x: Form, y: Form, z: Form }
-// Directions c + i s_1 + j s_2 +- e, per axis.
-struct Ray { c: vec3<f32>, i: vec3<f32>, j: vec3<f32>, e: vec3<f32> }
+// Directions c + d + i s_1 + j s_2 +- e, per axis; d is small.
+struct Ray { c: vec3<f32>, d: vec3<f32>, i: vec3<f32>, j: vec3<f32>, e: vec3<f32> }
 
-// P + t D for t = tc +- th: centre P + tc D, linear terms, and the bilinear ones as error.
+// (p + q) + t D for t = tc +- th, |error of p + q| <= p_e: the centre, linear terms, and the bilinear ones as error.
 //
-// Steps, each times u ((|tc| + th) (|D| + |i| + |j| + e) + |P|): coefficients 2 + 1 + 1 + 1, error at most 8, size 5, last sums 3.
-fn along(p: vec3<f32>, p_e: vec3<f32>, ray: Ray, t: f32, half: f32) -> Point {
+// With T = fl(tc c), S = fl(q + fl(tc d)): the centre is off by u (|T| + |p + T| + |tc d| + |S| + |centre|), the coefficients by u times themselves;
+// |p + T| <= |centre| + |S|. What is added up in the error loses less than 16 u of itself, and 1.25 covers the roundings of the bound.
+fn along(p: vec3<f32>, q: vec3<f32>, p_e: vec3<f32>, ray: Ray, t: f32, half: f32) -> Point {
     let tc = vec3<f32>(t);
     let th = vec3<f32>(half);
-    let c = add3(p, mul3(tc, ray.c));
+    let large = mul3(tc, ray.c);
+    let small = add3(q, mul3(tc, ray.d));
+    let c = add3(add3(p, large), small);
     let at = mul3(th, ray.c);
     let ai = mul3(tc, ray.i);
     let aj = mul3(tc, ray.j);
-    let across = add3(add3(abs(ray.i), abs(ray.j)), ray.e);
-    let size = add3(mul3(add3(tc, th), add3(abs(ray.c), across)), abs(p));
+    let across = add3(add3(abs(ray.i), abs(ray.j)), add3(ray.e, abs(ray.d)));
+    let linear = add3(add3(abs(at), abs(ai)), abs(aj));
+    let little = add3(abs(q), mul3(tc, abs(ray.d)));
+    let size = add3(add3(abs(large), 2.0 * abs(c)), add3(linear, 4.0 * little));
     let e = add3(add3(mul3(tc, ray.e), mul3(th, across)), p_e);
-    let error = add3(add3(e, mul3(vec3<f32>(24.0 * U), size)), vec3<f32>(F));
+    let padded = add3(mul3(e, vec3<f32>(1.0 + 16.0 * U)), mul3(vec3<f32>(1.25 * U), size));
+    let error = add3(padded, vec3<f32>(F));
     return Point(
         Form(c.x, error.x, vec3<f32>(at.x, ai.x, aj.x)),
         Form(c.y, error.y, vec3<f32>(at.y, ai.y, aj.y)),
@@ -58,21 +69,23 @@ fn along(p: vec3<f32>, p_e: vec3<f32>, ray: Ray, t: f32, half: f32) -> Point {
 }
 
 // The rays of a pixel: forward + x right + y up with the half pixels x = 2 column + 1 - width, exact integers; `spread` is 1 for the
-// whole pixel, 0 for its centre.
+// whole pixel, 0 for its centre. The sum of the large parts is exact: whole multiples of 2^-22 below 4.
 fn pixel_ray(index: u32, spread: f32) -> Ray {
     let column = index % frame.width;
     let row = index / frame.width;
-    let x = f32(i32(2u * column + 1u) - i32(frame.width));
-    let y = f32(i32(frame.height) - i32(2u * row + 1u));
-    let across = mul3(vec3<f32>(x), frame.right.xyz);
-    let above = mul3(vec3<f32>(y), frame.up.xyz);
-    let c = add3(add3(frame.forward.xyz, across), above);
-    return Ray(c, frame.right.xyz * spread, frame.up.xyz * spread, frame.dir_e.xyz);
+    let x = vec3<f32>(f32(i32(2u * column + 1u) - i32(frame.width)));
+    let y = vec3<f32>(f32(i32(frame.height) - i32(2u * row + 1u)));
+    let c = add3(add3(frame.forward.xyz, mul3(x, frame.right.xyz)), mul3(y, frame.up.xyz));
+    let d = add3(add3(frame.forward_lo.xyz, mul3(x, frame.right_lo.xyz)), mul3(y, frame.up_lo.xyz));
+    let i = add3(frame.right.xyz, frame.right_lo.xyz) * spread;
+    let j = add3(frame.up.xyz, frame.up_lo.xyz) * spread;
+    return Ray(c, d, i, j, frame.dir_e.xyz);
 }
 
 fn camera_point(ray: Ray, pos: u32, len: u32) -> Point {
     // Exact: whole numbers below 2^24 and a power of two.
-    return along(frame.eye.xyz, frame.eye_e.xyz, ray, f32(2u * pos + len) * frame.half_quantum, f32(len) * frame.half_quantum);
+    let t = f32(2u * pos + len) * frame.half_quantum;
+    return along(frame.eye.xyz, frame.eye_lo.xyz, frame.eye_e.xyz, ray, t, f32(len) * frame.half_quantum);
 }
 
 // Whether all points are certainly outside of the clip of a surface: there is none of it.

@@ -103,7 +103,7 @@ fn admits_zero(surface: u32, b: Beam, search: Search, t: vec2<f32>, evaluations:
     // Middle and half width, the latter enlarged by what both lose.
     let middle = mul(0.5, add(t.x, t.y));
     let half = add(mul(0.5, sub(t.y, t.x)), mul(4.0 * U, t.y));
-    return f_sign(field(surface, along(frame.eye.xyz, frame.eye_e.xyz, search.ray, middle, half))) == 0;
+    return f_sign(field(surface, along(frame.eye.xyz, frame.eye_lo.xyz, frame.eye_e.xyz, search.ray, middle, half))) == 0;
 }
 
 // Section number k of 2^level of t; neighbours compute their common edge in the same way.
@@ -196,8 +196,8 @@ fn pixels(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id) 
     let ray = pixel_ray(index, 1.0);
     var beam: Beam;
     for (var k = 0u; k < 3u; k++) {
-        beam.p[k] = around(frame.eye[k], frame.eye_e[k]);
-        beam.d[k] = around(ray.c[k], add(add(abs(ray.i[k]), abs(ray.j[k])), ray.e[k]));
+        beam.p[k] = around(frame.eye[k], add(abs(frame.eye_lo[k]), frame.eye_e[k]));
+        beam.d[k] = around(ray.c[k], add(add(abs(ray.i[k]), abs(ray.j[k])), add(ray.e[k], abs(ray.d[k]))));
     }
     var evaluations = 0u;
     var best = EMPTY;
@@ -234,7 +234,7 @@ fn possibly_blocked(index: u32, column: u32, row: u32, n: u32, evaluations: ptr<
     }
     for (var k = 0u; k < SURFACES; k++) {
         let none = vec3<f32>(0.0);
-        let t = nearest(k, beam, vec2<f32>(max(begin, 0.0), 1.0), Search(false, Ray(none, none, none, none)), true, evaluations);
+        let t = nearest(k, beam, vec2<f32>(max(begin, 0.0), 1.0), Search(false, Ray(none, none, none, none, none)), true, evaluations);
         if t.x <= t.y { return true; }
     }
     return false;

@@ -6,6 +6,8 @@ const EMPTY = 0u;           // no ray of the pixel meets anything
 const HIT = 1u;             // every ray meets the surface; the centre ray for the first time between y and z
 const OPEN = 2u;            // nothing is met before y
 const NONE = 0xffffffffu;
+// Evaluations that one pixel may take; then it stays open.
+const MOST = 1024u;
 // A piece longer than this many widths of the pixel is halved.
 const ASPECT: f32 = 2.0;
 
@@ -28,6 +30,7 @@ fn pixel(index: u32) -> vec4<u32> {
     var cover = NONE;       // from here every ray has met the surface `by`
     var by = 0u;
     while pos < frame.end && cover == NONE {
+        if evaluations > MOST { return vec4<u32>(OPEN, min(first, pos), frame.end, evaluations); }
         let p = camera_point(ray, pos, len);
         var possible = 0u;
         for (var k = 0u; k < SURFACES; k++) {

@@ -5,8 +5,9 @@
 // Per pixel: the lit share and the hidden share that are proved, in units of 2^-30.
 @group(0) @binding(3) var<storage, read_write> lit: array<atomic<u32>>;
 @group(0) @binding(4) var<storage, read_write> dark: array<atomic<u32>>;
-struct List { count: atomic<u32>, items: array<vec2<u32>> }
-// Work of this pass, and of the next: pixel, and part of the light (row << 16 | column).
+struct List { count: atomic<u32>, items: array<vec4<u32>> }
+// Work of this pass, and of the next: pixel, part of the light (row << 16 | column), and where its beam is open: outside of that stretch
+// of parameters it is proved free, for all of the part.
 @group(0) @binding(5) var<storage, read_write> work: List;
 @group(0) @binding(6) var<storage, read_write> more: List;
 @group(0) @binding(7) var<storage, read_write> spent: atomic<u32>;
@@ -16,6 +17,8 @@ const HIT = 1u;
 // The slope decides where t_lo <= 0.9 t_hi.
 const SLOPE: f32 = 0.9;
 const NEAR: f32 = 0.3;
+// Evaluations that one part of the light may take; then nothing is known of it.
+const MOST = 256u;
 // Strips of a part of the light.
 const STRIPS = 8u;
 
@@ -34,13 +37,13 @@ fn hit_of(index: u32) -> Hit {
 fn beam_of(hit: Hit, m: vec2<f32>, h: vec2<f32>) -> Ray {
     let at = add3(add3(frame.center.xyz, mul3(vec3<f32>(m.x), frame.edge_u.xyz)), mul3(vec3<f32>(m.y), frame.edge_v.xyz));
     let c = sub3(at, hit.p);
-    let e = add3(frame.light_e.xyz, mul3(vec3<f32>(4.0 * U), add3(abs(c), abs(at))));
-    return Ray(c, frame.edge_u.xyz * h.x, frame.edge_v.xyz * h.y, e);
+    let e = add3(frame.light_e.xyz, mul3(vec3<f32>(1.25 * U), abs(c)));
+    return Ray(c, vec3<f32>(0.0), frame.edge_u.xyz * h.x, frame.edge_v.xyz * h.y, e);
 }
 
 // Points of the beam: with P = p + r, |r| <= e, P + t (L - P) = p + t (L - p) + (1 - t) r.
 fn beam_point(hit: Hit, ray: Ray, pos: u32, len: u32) -> Point {
-    return along(hit.p, hit.e, ray, f32(2u * pos + len) * frame.half_unit, f32(len) * frame.half_unit);
+    return along(hit.p, vec3<f32>(0.0), hit.e, ray, f32(2u * pos + len) * frame.half_unit, f32(len) * frame.half_unit);
 }
 
 // The slope of f over a piece: the direction from the true hit is L - p - r.
@@ -61,8 +64,8 @@ fn front_of(hit: Hit, k: u32) -> i32 {
     return f_sign(field(k, p));
 }
 
-// What is known of a part of the light: certainly lit and certainly hidden shares.
-struct Shares { lit: f32, dark: f32 }
+// What is known of a part of the light: certainly lit and certainly hidden shares, and between which parameters the beam is open.
+struct Shares { lit: f32, dark: f32, first: u32, last: u32 }
 
 // Share of the square [-1, 1]^2 in which k + a u + b v > 0, at least that. With p = max(|a|, |b|), q the other: 0 up to -(p + q), then the
 // triangle (k + p + q)^2 / (8 p q), from -(p - q) to p - q the trapezoid 1/2 + k / (2 p), then 1 less a triangle. Monotone in k. Roundings
@@ -95,9 +98,9 @@ fn half_plane(k: f32, a: f32, b: f32) -> f32 {
     return clamp(share - 7.6e-6, 0.0, 1.0);
 }
 
-// Looks at a part of the light with all surfaces. Where planes are wanted, they bound the shares of the lit and of the hidden part; else
-// anything open ends the search with (0, 0).
-fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool) -> Shares {
+// Looks at a part of the light with all surfaces, between the parameters `from` and `until`. Where planes are wanted, they bound the shares
+// of the lit and of the hidden part.
+fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: u32, until: u32) -> Shares {
     let ray = beam_of(hit, m, h);
     let distance = max(abs(ray.c.x), max(abs(ray.c.y), abs(ray.c.z)));
     let size = 2.0 * max(length(ray.i), length(ray.j));
@@ -110,13 +113,18 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool) -> Shar
     var swap = false;
     var open = 0u;
     var evaluations = 0u;
+    var first = until;
+    var last = from_;
+    // The largest piece that may begin here.
+    var longest = 1u << firstLeadingBit(max(until - from_, 1u));
+    if from_ > 0u { longest = min(longest, 1u << firstTrailingBit(from_)); }
 
     for (var k = 0u; k < SURFACES; k++) {
         let front = front_of(hit, k);
         let own = k == hit.surface;
-        var pos = 0u;
-        var len = frame.units;
-        while pos < frame.units {
+        var pos = from_;
+        var len = longest;
+        while pos < until {
             let p = beam_point(hit, ray, pos, len);
             var settled = outside(k, p);
             if !settled {
@@ -133,23 +141,29 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool) -> Shar
                 let hides = front != 0 && inside(k, p);
                 if hides && top < -mul(4.0 * U, add(add(abs(bottom), across), e)) {
                     atomicAdd(&spent, evaluations);
-                    return Shares(0.0, 1.0);
+                    return Shares(0.0, 1.0, 0u, 0u);
                 }
                 // The segments leave to the wrong side.
                 if s < 0 && own && pos == 0u {
                     atomicAdd(&spent, evaluations);
-                    return Shares(0.0, 1.0);
+                    return Shares(0.0, 1.0, 0u, 0u);
                 }
                 settled = s != 0;
                 if !settled && len > 1u && f32(len) > leaf * max(f32(pos + len), NEAR * f32(frame.units)) {
                     len = len >> 1u;
                     continue;
                 }
-                if !settled && !planes {
+                if evaluations > MOST {
                     atomicAdd(&spent, evaluations);
-                    return Shares(0.0, 0.0);
+                    // Of surfaces that come later nothing is known.
+                    return Shares(0.0, 0.0, select(min(first, pos), from_, SURFACES > 1u), until);
                 }
                 if !settled {
+                    first = min(first, pos);
+                    last = max(last, min(pos + len, until));
+                }
+                if !settled && !planes { open++; }
+                if !settled && planes {
                     // Sweep along the axis on which the first plane depends less.
                     if open == 0u { swap = abs(f.a.z) > abs(f.a.y); }
                     open++;
@@ -174,11 +188,12 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool) -> Shar
                 }
             }
             pos += len;
-            if len < frame.units && (pos & (2u * len - 1u)) == 0u { len = len << 1u; }
+            if len < frame.units && (pos & (2u * len - 1u)) == 0u && pos + len < until { len = len << 1u; }
         }
     }
     atomicAdd(&spent, evaluations);
-    if open == 0u { return Shares(1.0, 0.0); }
+    if open == 0u { return Shares(1.0, 0.0, 0u, 0u); }
+    if !planes { return Shares(0.0, 0.0, first, last); }
     // Lit points on two lines span a lit trapezoid: the lit part is convex.
     var area = 0.0;
     for (var i = 0u; i < STRIPS; i++) {
@@ -188,18 +203,18 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool) -> Shar
     }
     // Lengths of up to 2, twice per strip; some roundings of 2^-23.
     let share = clamp(area * (0.25 / f32(STRIPS)) - 4e-6, 0.0, 1.0);
-    return Shares(share, hidden);
+    return Shares(share, hidden, first, last);
 }
 
 @compute @workgroup_size(64)
 fn whole(@builtin(global_invocation_id) id: vec3<u32>) {
     let index = frame.first + id.x;
     if id.x >= frame.count || (found[index].x & 0xffu) != HIT { return; }
-    let shares = look(hit_of(index), vec2<f32>(0.0), vec2<f32>(1.0), 1.0, false);
+    let shares = look(hit_of(index), vec2<f32>(0.0), vec2<f32>(1.0), 1.0, false, 0u, frame.units);
     if shares.lit == 1.0 { atomicStore(&lit[index], ONE); return; }
     if shares.dark == 1.0 { atomicStore(&dark[index], ONE); return; }
     let at = atomicAdd(&more.count, 1u);
-    if at < arrayLength(&more.items) { more.items[at] = vec2<u32>(index, 0u); }
+    if at < arrayLength(&more.items) { more.items[at] = vec4<u32>(index, 0u, shares.first, shares.last); }
 }
 
 // Each item of `work` is a square of the grid of SIDE x SIDE squares of the light; it is divided in SPLIT x SPLIT.
@@ -207,6 +222,8 @@ override SIDE: u32 = 1u;
 override SPLIT: u32 = 8u;
 // What remains unknown of a part beyond this share is looked at again.
 override REST: f32 = 0.01;
+// Pieces longer than so many widths of the part are halved.
+override ASPECT: f32 = 2.0;
 @compute @workgroup_size(64)
 fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
          @builtin(local_invocation_index) local: u32) {
@@ -222,12 +239,12 @@ fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
         // n is a power of two: exact.
         let h = 1.0 / f32(n);
         let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
-        let shares = look(hit_of(item.x), m, vec2<f32>(h), 2.0, true);
+        let shares = look(hit_of(item.x), m, vec2<f32>(h), ASPECT, true, item.z, item.w);
         let unknown = 1.0 - shares.lit - shares.dark;
         if unknown > REST {
             let at = atomicAdd(&more.count, 1u);
             if at < arrayLength(&more.items) {
-                more.items[at] = vec2<u32>(item.x, row << 16u | column);
+                more.items[at] = vec4<u32>(item.x, row << 16u | column, shares.first, shares.last);
                 continue;
             }
         }

@@ -6,9 +6,13 @@
 // u = 2^-23, unless a subnormal number is flushed (2^-126 for a result; for an operand 2^-126 times the other one).
 // With that u the step counts are those of the affine forms in f64 (`antumbra_interval::affine`), beside whose code they are derived.
 //
-// Flushing: every error bound that occurs is at least F = 2^-100 (constants and coordinates begin with it, products add it). So
-// `size`, a product of sums that contain such bounds, has u size >= 2^-123 |other operand|, more than a flushed operand costs; the slack of
-// seven steps in each count covers 56 of them. Flushed results cost less than 32 * 2^-126 < F together.
+// The centre of a product is rounded twice at most: that counts by itself, |c_a c_b| being much larger than what depends on the radii
+// R = |a|_1 + e where rounding matters at all.
+//
+// Flushing, of operands and of results: every error bound that occurs is at least F = 2^-100 (constants and coordinates begin with it,
+// products add it). In products a flushed operand costs 2^-126 times the other one; the terms R |c_b| and |c_a| T of `rest` contain F |c_b| and
+// F |c_a|, so that u rest >= 2^-123 |other operand|: the slack of seven steps in each count covers 56 of them. Flushed results cost less than
+// 64 * 2^-126 < F together. In sums all costs together are at most 12 * 2^-126, and t >= 2^-99 has u t >= 2^-122.
 // Overflow: excluded beforehand on the CPU (`wgsl::Reach`): no size passes 2^120. So there is no NaN either.
 
 const U: f32 = 1.1920929e-7;          // 2^-23
@@ -34,16 +38,16 @@ fn b_neg(x: Ball) -> Ball { return Ball(-x.m, x.r); }
 fn b_add(x: Ball, y: Ball) -> Ball {
     let m = add(x.m, y.m);
     let t = add(x.r, y.r);
-    return Ball(m, add(t, mul(4.0 * U, add(abs(m), t))));
+    return Ball(m, add(t, mul(3.0 * U, add(abs(m), t))));
 }
 fn b_sub(x: Ball, y: Ball) -> Ball { return b_add(x, b_neg(y)); }
-// As f_mul, with a = 0: error at most 5 steps, centre 1, size 3, last sums 3.
+// As f_mul, with a = 0: the rest, of at most 5 steps, is the error itself; last sums 3. The centre is rounded once.
 fn b_mul(x: Ball, y: Ball) -> Ball {
     let p = abs(x.m);
     let q = abs(y.m);
-    let r = add(add(mul(p, y.r), mul(q, x.r)), mul(x.r, y.r));
-    let size = mul(add(p, x.r), add(q, y.r));
-    return Ball(mul(x.m, y.m), add(add(r, mul(20.0 * U, size)), F));
+    let rest = add(mul(p, y.r), mul(x.r, add(q, y.r)));
+    let m = mul(x.m, y.m);
+    return Ball(m, add(add(mul(rest, 1.0 + 20.0 * U), mul(3.0 * U, abs(m))), F));
 }
 fn b_sqr(x: Ball) -> Ball { return b_mul(x, x); }
 // ||v| - |m|| <= |v - m|.
@@ -54,10 +58,11 @@ struct Form { c: f32, e: f32, a: vec3<f32> }
 
 fn f_const(m: f32, r: f32) -> Form { return Form(m, r, vec3<f32>(0.0)); }
 fn f_neg(x: Form) -> Form { return Form(-x.c, x.e, -x.a); }
-// e of a sum: t + 4 u (|c| + |a|_1 + t), as `Affine::sum`.
+// e of a sum, where t is the sum of errors: the true error is at most t + u t + u S, S = |c| + |a|_1; with v = fl(3 u (S + t)),
+// fl(t + v) >= t + v - u t - u v >= t + 2 u t + 3 u S less terms of second order. As `Affine::sum`.
 fn f_sum(c: f32, a: vec3<f32>, t: f32) -> Form {
     let w = sum3(add(abs(c), t), a);
-    return Form(c, add(t, mul(4.0 * U, w)), a);
+    return Form(c, add(t, mul(3.0 * U, w)), a);
 }
 fn f_add(x: Form, y: Form) -> Form { return f_sum(add(x.c, y.c), add3(x.a, y.a), add(x.e, y.e)); }
 fn f_sub(x: Form, y: Form) -> Form { return f_sum(sub(x.c, y.c), sub3(x.a, y.a), add(x.e, y.e)); }
@@ -65,7 +70,7 @@ fn f_sub(x: Form, y: Form) -> Form { return f_sum(sub(x.c, y.c), sub3(x.a, y.a),
 fn f_addk(x: Form, m: f32, r: f32) -> Form {
     let c = add(x.c, m);
     let t = add(x.e, r);
-    return Form(c, add(t, mul(4.0 * U, add(abs(c), t))), x.a);
+    return Form(c, add(t, mul(3.0 * U, add(abs(c), t))), x.a);
 }
 // k x for an exact k: 5 products, then as a sum.
 fn f_scale(x: Form, k: f32) -> Form {
@@ -77,12 +82,16 @@ fn f_scale(x: Form, k: f32) -> Form {
 }
 // k x for a number k = m +- r, as `Affine::mul_interval`.
 fn f_mulk(x: Form, m: f32, r: f32) -> Form {
-    let s = sum3(add(abs(x.c), x.e), x.a);
-    let size = mul(s, add(abs(m), r));
-    let e = add(mul(x.e, abs(m)), mul(s, r));
-    return Form(mul(x.c, m), add(add(e, mul(20.0 * U, size)), F), mul3(x.a, vec3<f32>(m)));
+    let s = sum3(x.e, x.a);
+    let p = abs(x.c);
+    let rest = add(mul(p, r), mul(s, add(abs(m), r)));
+    let e = add(mul(x.e, abs(m)), mul(add(p, s), r));
+    let c = mul(x.c, m);
+    let pad = add(mul(3.0 * U, abs(c)), mul(20.0 * U, rest));
+    return Form(c, add(add(e, pad), F), mul3(x.a, vec3<f32>(m)));
 }
-// As `Affine::mul`: centre c_a c_b + Q/2, error R T - D/2 + |c_a| e_b + |c_b| e_a.
+// As `Affine::mul`: centre c_a c_b + Q/2, error R T - D/2 + |c_a| e_b + |c_b| e_a. The centre costs u |c_a c_b| and u |c'|, which is less than
+// u |c_a c_b| and u R T; all other steps, 21 as there, are on numbers below the rest |c_a| T + R (|c_b| + T).
 fn f_mul(x: Form, y: Form) -> Form {
     let r = sum3(x.e, x.a);
     let t = sum3(y.e, y.a);
@@ -92,19 +101,22 @@ fn f_mul(x: Form, y: Form) -> Form {
     let d = add(add(m.x, m.y), m.z);
     let p = abs(x.c);
     let o = abs(y.c);
-    let size = mul(add(p, r), add(o, t));
+    let rest = add(mul(p, t), mul(r, add(o, t)));
     let e = add(sub(mul(r, t), 0.5 * d), add(mul(p, y.e), mul(o, x.e)));
     let a = add3(mul3(vec3<f32>(x.c), y.a), mul3(vec3<f32>(y.c), x.a));
-    return Form(add(mul(x.c, y.c), 0.5 * q), add(add(e, mul(28.0 * U, size)), F), a);
+    let c = mul(x.c, y.c);
+    let pad = add(mul(4.0 * U, abs(c)), mul(28.0 * U, rest));
+    return Form(add(c, 0.5 * q), add(add(e, pad), F), a);
 }
 // As `Affine::sqr`: centre c^2 + R^2/2, error R^2/2 + 2 |c| e.
 fn f_sqr(x: Form) -> Form {
     let r = sum3(x.e, x.a);
     let p = abs(x.c);
     let h = 0.5 * mul(r, r);
-    let s = add(p, r);
     let e = add(h, mul(2.0 * p, x.e));
-    return Form(add(mul(x.c, x.c), h), add(add(e, mul(28.0 * U, mul(s, s))), F), mul3(vec3<f32>(2.0 * x.c), x.a));
+    let c = mul(x.c, x.c);
+    let pad = add(mul(4.0 * U, c), mul(28.0 * U, mul(r, add(2.0 * p, r))));
+    return Form(add(c, h), add(add(e, pad), F), mul3(vec3<f32>(2.0 * x.c), x.a));
 }
 // Upper bound of |a|_1 + e: three sums and a product.
 fn f_radius(x: Form) -> f32 { return mul(sum3(x.e, x.a), 1.0 + 8.0 * U); }
