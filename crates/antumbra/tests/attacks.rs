@@ -5,6 +5,7 @@ use antumbra::geom::{Beam, Box3, Clip, Rect, Vec3};
 use antumbra::grid::Grid;
 use antumbra::render::{Frame, RenderSpec, Renderer, RunSpec, Stats};
 use antumbra::scene::{Light, Object, Scene, View, preset};
+use antumbra::shadow::Penumbra;
 use antumbra::trace::{Bisection, Cost, Effort, Piece, Scratch, Surface, Target, first_meeting, possibly_blocked};
 use antumbra_interval::Interval;
 use std::sync::Arc;
@@ -157,4 +158,15 @@ fn the_audit_does_not_accuse_cusps() {
         assert_eq!(report.violations, Vec::<String>::new(), "{text}");
         assert!(report.total().unclear > 0, "{text}: {report:?}");
     }
+}
+
+/// Where forms overflow, intervals still know a sign; and where nothing is known, a hit ends within its budget.
+#[test]
+fn overflowing_forms_end() {
+    let scene = scene_of(&["x^196608 = 1"], Box3::cube(3.0), Vec3::new(8.0, -13.0, 9.0));
+    let spec = RenderSpec { width: 4, height: 4, penumbra: Penumbra::First, ..RenderSpec::default() };
+    let mut renderer = Renderer::new(Arc::new(scene), spec, RunSpec::default()).unwrap();
+    while !renderer.refine(Duration::from_secs(60)) {}
+    let stats = renderer.stats();
+    assert!(stats.hits > 0 && stats.shadow_evaluations < stats.hits * 400_000, "{stats:?}");
 }

@@ -56,13 +56,11 @@ pub(super) fn fronts(
     surfaces.iter().enumerate().map(&mut front_of).collect()
 }
 
-/// Whether f has no value at all on a box: nothing is there that could occlude.
-pub(super) fn nothing(f: &dyn Inclusion, region: &Box3, work: &mut Workspace, cost: &mut Cost) -> bool {
-    if f.continuous_everywhere() {
-        return false;
-    }
+/// Whether f has no zero in the box: where a form says nothing (it overflows, or reaches the end of a domain) intervals often do.
+/// Where f is undefined nothing occludes.
+pub(super) fn no_zero(f: &dyn Inclusion, region: &Box3, work: &mut Workspace, cost: &mut Cost) -> bool {
     cost.evaluations += 1;
-    f.range(region, work).is_empty()
+    !f.range(region, work).possibly_zero()
 }
 
 /// Whether the opposite sign of `front` at the parameter `at`, on some of the rays, proves a zero on these rays: all

@@ -20,6 +20,12 @@ const NEAR: f64 = 0.3;
 /// Never halve below this length.
 const SHORTEST: f64 = 1e-9;
 
+/// Evaluations that one hit may take with so many rectangles: several times what the hardest hits of the gallery need. It ends what
+/// nothing is known of, piece after piece.
+pub(super) fn evaluations(rectangles: u32) -> u64 {
+    65_536 + 64 * u64::from(rectangles)
+}
+
 pub(super) fn slope_pays(t: Interval) -> bool {
     t.lo() <= SLOPE * t.hi()
 }

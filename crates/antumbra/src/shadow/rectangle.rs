@@ -1,5 +1,5 @@
 //! One rectangle of a light, seen from one hit.
-use super::occluders::{Front, Receiver, hides, nothing};
+use super::occluders::{Front, Receiver, hides, no_zero};
 use super::policy::{halves, long, size, slope_pays};
 use crate::eval::Workspace;
 use crate::geom::halfplanes::{self, HalfPlane, shares};
@@ -92,8 +92,7 @@ impl Query<'_> {
             } else {
                 at.function.beam(fan.at(t), work)
             };
-            // Affine forms say nothing at the ends of domains; intervals do. Where f is undefined nothing occludes.
-            if form.range() == Interval::ENTIRE && nothing(at.function, &fan.box_at(t), work, cost) {
+            if form.range() == Interval::ENTIRE && no_zero(at.function, &fan.box_at(t), work, cost) {
                 continue;
             }
             let (range, form) = if front.is_some_and(|f| f.sign == Sign::Negative) {

@@ -1,5 +1,5 @@
 //! Shafts: one test for all hits of a tile of the screen.
-use super::occluders::{Receiver, fronts, hides, nothing};
+use super::occluders::{Receiver, fronts, hides, no_zero};
 use super::policy::{halves, long_in_shaft, shaft_slope_pays, size};
 use crate::eval::Workspace;
 use crate::geom::{Box3, Fan, Passage, Rect};
@@ -123,7 +123,7 @@ pub fn shaft(
         };
         if form.range() == Interval::ENTIRE {
             let region = Box3(std::array::from_fn(|k| apex[k] + t * directions[k]));
-            if nothing(at.function, &region, work, cost) {
+            if no_zero(at.function, &region, work, cost) {
                 continue;
             }
         }

@@ -1,7 +1,7 @@
 //! The visible fraction of a light from one hit.
 use super::ledger::{Ledger, area};
 use super::occluders::{Receiver, fronts};
-use super::policy::quarters;
+use super::policy::{self, quarters};
 use super::rectangle::{self, Answer, Query};
 use super::second;
 use crate::eval::Workspace;
@@ -58,7 +58,7 @@ impl Penumbra {
 pub struct Tolerance {
     /// Width of a bracket that is narrow enough.
     pub width: f64,
-    /// Rectangles of a light that one hit may take.
+    /// Rectangles of a light that one hit may take; evaluations are bounded along with them.
     pub rectangles: u32,
     /// The method.
     pub penumbra: Penumbra,
@@ -125,7 +125,7 @@ pub fn visible(
     arena.clear();
     arena.extend_from_slice(pieces);
     ledger.clear();
-    let mut rectangles = 0;
+    let (mut rectangles, most) = (0, cost.evaluations + policy::evaluations(tolerance.rectangles));
     let mut parts = vec![([unit; 2], 0..arena.len())];
     loop {
         for (part, pieces) in parts.drain(..) {
@@ -137,7 +137,7 @@ pub fn visible(
                 Answer::Open { lit, open } => ledger.open(part, [lit, open], begin..arena.len()),
             }
         }
-        if ledger.unknown() <= tolerance.width || rectangles >= tolerance.rectangles {
+        if ledger.unknown() <= tolerance.width || rectangles >= tolerance.rectangles || cost.evaluations >= most {
             break;
         }
         if rectangles == 1 {
