@@ -210,13 +210,15 @@ impl<'a> Run<'a> {
         // Exact: whole numbers below 2^24 and a power of two.
         let at = |k: u32| f64::from(k) * quantum;
         match what & 0xff {
-            0 => Pixel::Empty,
+            3 => Pixel::Empty,
             1 => Pixel::Hit {
                 surface: (what >> 8 & 0xff) as usize,
                 t: Interval::new(at(*a), at(*b)),
                 before: if what >> 16 == 1 { Sign::Positive } else { Sign::Negative },
             },
-            _ => Pixel::Open { from: at(*a) },
+            2 => Pixel::Open { from: at(*a) },
+            // Nobody has written here.
+            _ => Pixel::Open { from: 0.0 },
         }
     }
 }

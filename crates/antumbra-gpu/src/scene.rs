@@ -219,6 +219,10 @@ pub(crate) fn functions(
         return Err(Error::Scene("a scene on the GPU has 1 to 8 surfaces"));
     }
     let reach = magnitudes(frame, film, lights);
+    // Where a formula does not use an axis nothing else asks; far places have no 32-bit numbers around them.
+    if !reach.iter().all(|m| *m < f64::from(FAR) / 4.0) {
+        return Err(Error::Scene("coordinates as large as these are not for 32-bit numbers"));
+    }
     let mut text = format!("const SURFACES = {}u;\n", surfaces.len());
     let mut choose: Vec<String> = vec![String::new(); kinds.len()];
     for (k, surface) in surfaces.iter().enumerate() {

@@ -394,3 +394,18 @@ fn extreme_paths_prove_nothing_false() {
         }
     }
 }
+
+/// At the apex itself a tie is no choice: the slope holds the limits of both.
+#[test]
+fn ties_at_the_apex_keep_both_slopes() {
+    let zero = |slope: f64| Slope::<Interval, 3> {
+        apex: Interval::ZERO,
+        value: Affine::ZERO,
+        slope: Affine::constant(Interval::point(slope)),
+    };
+    let (down, up) = (zero(-1.0), zero(1.0));
+    for slope in [down.max(up).slope, up.max(down).slope, down.min(up).slope, down.abs().slope, up.abs().slope] {
+        let range = slope.range();
+        assert!(range.contains(-1.0) && range.contains(1.0), "{range:?}");
+    }
+}

@@ -2,7 +2,8 @@
 
 @group(0) @binding(2) var<storage, read_write> found: array<vec4<u32>>;
 
-const EMPTY = 0u;           // no ray of the pixel meets anything
+// 0 is what memory holds that nobody has written: it says nothing.
+const EMPTY = 3u;           // no ray of the pixel meets anything
 const HIT = 1u;             // every ray meets the surface; the centre ray for the first time between y and z
 const OPEN = 2u;            // nothing is met before y
 const NONE = 0xffffffffu;

@@ -236,8 +236,8 @@ fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) group
         let part = number % parts;
         let column = (item.y & 0xffffu) * SPLIT + part % SPLIT;
         let row = (item.y >> 16u) * SPLIT + part / SPLIT;
-        // n is a power of two: exact.
-        let h = 1.0 / f32(n);
+        // 1 / n by its bits, for n is a power of two: quotients need not be exact.
+        let h = bitcast<f32>((127u - firstTrailingBit(n)) << 23u);
         let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
         let shares = look(hit_of(item.x), m, vec2<f32>(h), ASPECT, true, item.z, item.w);
         let unknown = 1.0 - shares.lit - shares.dark;

@@ -100,13 +100,14 @@ impl<P: Apex<F>, F: Form> SlopeOf<P, F> {
         Self { apex, value, slope: self.slope / rest }
     }
 
-    /// `|f|`: `+-g` where the sign is settled; else `||v| - |p|| <= |v - p|`.
+    /// `|f|`: `+-g` where the sign is settled; else `||v| - |p|| <= |v - p|`. Settled strictly at the apex, so that it is also near
+    /// it: there the slope is the limit of the slopes beyond, where f has one.
     #[must_use]
     pub fn abs(self) -> Self {
-        let both = self.apex.range().hull(self.value.range());
-        let slope = if both.lo() >= 0.0 {
+        let (p, v) = (self.apex.range(), self.value.range());
+        let slope = if p.lo() > 0.0 && v.lo() >= 0.0 {
             self.slope
-        } else if both.hi() <= 0.0 {
+        } else if p.hi() < 0.0 && v.hi() <= 0.0 {
             -self.slope
         } else {
             self.slope.between(-self.slope)
@@ -118,12 +119,13 @@ impl<P: Apex<F>, F: Form> SlopeOf<P, F> {
     ///
     /// Where the choice is the same at the apex and beyond, its slope. Where it changes, say `a` at the apex and `b`
     /// beyond: `b_v - a_p >= a_v - a_p = t s_a` and `b_v - a_p <= b_v - b_p = t s_b`, so the slope lies between both.
+    /// The choice at the apex is strict, as for [`abs`](Self::abs).
     #[must_use]
     pub fn max(self, o: Self) -> Self {
         let (p, v) = ((self.apex - o.apex).range(), (self.value - o.value).range());
-        let slope = if p.lo() >= 0.0 && v.lo() >= 0.0 {
+        let slope = if p.lo() > 0.0 && v.lo() >= 0.0 {
             self.slope
-        } else if p.hi() <= 0.0 && v.hi() <= 0.0 {
+        } else if p.hi() < 0.0 && v.hi() <= 0.0 {
             o.slope
         } else {
             self.slope.between(o.slope)

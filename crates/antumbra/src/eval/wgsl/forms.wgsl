@@ -10,7 +10,7 @@
 // R = |a|_1 + e where rounding matters at all.
 //
 // Flushing, of operands and of results: every error bound that occurs is at least F = 2^-100 (constants and coordinates begin with it,
-// products add it). In products a flushed operand costs 2^-126 times the other one; the terms R |c_b| and |c_a| T of `rest` contain F |c_b| and
+// products add it; |x| may have half of it, which the slack below covers). In products a flushed operand costs 2^-126 times the other one; the terms R |c_b| and |c_a| T of `rest` contain F |c_b| and
 // F |c_a|, so that u rest >= 2^-123 |other operand|: the slack of seven steps in each count covers 56 of them. Flushed results cost less than
 // 64 * 2^-126 < F together. In sums all costs together are at most 12 * 2^-126, and t >= 2^-99 has u t >= 2^-122.
 // Overflow: excluded beforehand on the CPU (`wgsl::Reach`): no size passes 2^120. So there is no NaN either.

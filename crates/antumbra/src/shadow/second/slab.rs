@@ -36,7 +36,7 @@ pub(super) struct Convexity {
     pub(super) least_at: Sheet,
 }
 
-/// The parameters `lo(u, v) <= t <= hi(u, v)` of one surface. (Where the sheets cross, those in between.)
+/// The parameters `lo(u, v) <= t <= hi(u, v)` of one surface: none where the sheets cross.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Slab {
     pub(super) surface: usize,
