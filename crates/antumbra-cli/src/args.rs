@@ -33,7 +33,7 @@ pub(crate) enum Command {
     #[command(subcommand, after_help = SCENE_EXAMPLES)]
     Scene(SceneCommand),
     #[command(after_help = INFO_EXAMPLES)]
-    /// Say what this program and this machine offer: presets, gallery, methods, processor
+    /// Say what this program and this machine offer: presets, gallery, methods, processor, GPUs
     Info,
     Completions(CompletionsArgs),
     Man(ManArgs),
@@ -41,7 +41,7 @@ pub(crate) enum Command {
 
 const INFO_EXAMPLES: &str = "\
 Examples:
-  antumbra info                                     # version, processor, presets, gallery, methods
+  antumbra info                                     # version, processor, GPUs, presets, gallery, methods
   antumbra info | grep AVX-512";
 
 const SCENE_EXAMPLES: &str = "\
