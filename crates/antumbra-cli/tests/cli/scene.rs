@@ -104,7 +104,7 @@ fn wrong_files() -> Vec<(String, &'static str)> {
         (with("[output]\ntolerance = 2"), "output.tolerance: must be from 1e-9 to 1"),
         (with("[parameters]\na = { value = 3, min = 0, max = 1 }"), "parameters.a: 3 is not between 0 and 1"),
         (with("[parameters]\na = \"3\""), "a parameter is a number, or { value = .., min = .., max = .. }"),
-        (format!("[parameters]\n\"a b\" = 1\n{sphere}"), "surface[1].formula"),
+        (format!("[parameters]\n\"a b\" = 1\n{sphere}"), "parameters.a b: a name is made of letters"),
     ]
 }
 
