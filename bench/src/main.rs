@@ -5,13 +5,21 @@
 //! named as skipped.
 //!
 //! Debian's povray and libembree-dev are found if they are installed; Fidget and inari come from crates.io.
+#[path = "../../crates/antumbra/tests/truth/double.rs"]
+mod double;
 mod embree;
 mod fidget;
 mod intervals;
+#[allow(dead_code, reason = "tests use the rest")]
+#[path = "../../crates/antumbra/tests/truth/light.rs"]
+mod light;
 mod picture;
 mod plot;
 mod povray;
 mod report;
+#[allow(dead_code, reason = "tests use the rest")]
+#[path = "../../crates/antumbra/tests/truth/sampler.rs"]
+mod sampler;
 mod surfaces;
 
 use clap::Parser;
@@ -75,7 +83,7 @@ fn measure(surface: &surfaces::Surface, arguments: &Arguments) -> Row {
     let (size, scene) = (arguments.size, scene(surface));
     let reference = Reference::of(&scene, size);
     let rays = rays(&scene, size);
-    let mut row = Row::new(surface.name, reference.sampled(surface, &scene, 40, 32));
+    let mut row = Row::new(surface.name, reference.sampled(&scene, 40, 64));
     // Errors do not change from run to run: which of our tolerances are as good as the others?
     let ladder: Vec<_> = TOLERANCES.map(|t| (t, reference.errors_of(&certified(&scene, size, t).0))).into();
     let equal = |rms: f64| ladder.iter().copied().find(|(_, e)| e.rms <= rms).unwrap_or(ladder[ladder.len() - 1]);
@@ -90,8 +98,7 @@ fn measure(surface: &surfaces::Surface, arguments: &Arguments) -> Row {
         row.fidget.push(fidget::height_map(surface, &scene, size as u32));
         match povray::run(surface, &scene, size) {
             Ok((seconds, picture)) => {
-                let facing = |i: usize| f64::from(reference.facing[i].max(0.0));
-                let errors = reference.errors(|i| picture[i], facing);
+                let errors = reference.errors(|i| picture[i], |i| reference.facing(i));
                 let against = row.povray.get_or_insert_with(|| Ok(Against::new(errors, equal(errors.rms))));
                 if let Ok(against) = against {
                     against.theirs.push(seconds);

@@ -1,7 +1,9 @@
 //! Our pictures: times, the reference, and errors against it.
 use crate::embree::Rays;
+use crate::light::{found, visible};
+use crate::sampler::Judge;
 use crate::surfaces::Surface;
-use antumbra::geom::{Film, Rect};
+use antumbra::geom::Film;
 use antumbra::render::{Frame, RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{Scene, preset};
 use cpu_time::ProcessTime;
@@ -57,14 +59,9 @@ pub(crate) fn rays(scene: &Scene, size: usize) -> Rays {
 
 /// The truth to a few millionths: brackets of 1/65536.
 pub(crate) struct Reference {
-    size: usize,
+    frame: Frame,
     /// Pixels that are compared: proved hits all of whose neighbours are.
     inner: Vec<usize>,
-    lo: Vec<f64>,
-    hi: Vec<f64>,
-    /// Cosine at the light's centre.
-    pub(crate) facing: Vec<f32>,
-    t: Vec<f64>,
 }
 
 /// How far a picture is from the truth.
@@ -85,23 +82,23 @@ impl Reference {
             let near = |c: usize| c.saturating_sub(1)..=(c + 1).min(size - 1);
             near(y).all(|y| near(x).all(|x| hit(y * size + x)))
         };
-        let light = &frame.lights[0];
-        Self {
-            size,
-            inner: (0..size * size).filter(inside).collect(),
-            lo: light.visible_lo.clone(),
-            hi: light.visible_hi.clone(),
-            facing: light.facing.clone(),
-            t: frame.t_lo.iter().zip(&frame.t_hi).map(|(a, b)| 0.5 * (a + b)).collect(),
-        }
+        let inner = (0..size * size).filter(inside).collect();
+        Self { frame, inner }
+    }
+
+    /// Cosines at the light's centre, at least 0.
+    pub(crate) fn facing(&self, i: usize) -> f64 {
+        f64::from(self.frame.lights[0].facing[i].max(0.0))
     }
 
     /// Of a visible fraction for each pixel, times `weight`; what is NaN counts as dark.
     pub(crate) fn errors(&self, visible: impl Fn(usize) -> f64, weight: impl Fn(usize) -> f64) -> Errors {
+        let light = &self.frame.lights[0];
         let (mut sum, mut most) = (0.0, 0.0f64);
         for &i in &self.inner {
             let seen = visible(i);
-            let off = (if seen.is_nan() { 0.0 } else { seen }) - weight(i) * 0.5 * (self.lo[i] + self.hi[i]);
+            let off = (if seen.is_nan() { 0.0 } else { seen })
+                - weight(i) * 0.5 * (light.visible_lo[i] + light.visible_hi[i]);
             sum += off * off;
             most = most.max(off.abs());
         }
@@ -114,38 +111,22 @@ impl Reference {
         self.errors(|i| 0.5 * (light.visible_lo[i] + light.visible_hi[i]), |_| 1.0)
     }
 
-    /// Plain sampling of some penumbra pixels, by the formula in plain numbers: `n x n` points of the light, 4000 steps along
-    /// each ray. Returns how many pixels were looked at, and at how many the share of samples is further from the bracket
-    /// than samples can be.
-    pub(crate) fn sampled(&self, surface: &Surface, scene: &Scene, pixels: usize, n: usize) -> (usize, usize) {
-        let film = Film { camera: scene.view.camera(1.0), width: self.size, height: self.size };
-        let partly: Vec<usize> =
-            self.inner.iter().copied().filter(|i| self.lo[*i] > 0.02 && self.hi[*i] < 0.98).collect();
+    /// Some penumbra pixels against `n x n` points of the light, which the independent sampler of our tests asks one by one. Returns
+    /// how many pixels were looked at, and at how many samples and bracket disagree.
+    pub(crate) fn sampled(&self, scene: &Scene, pixels: usize, n: usize) -> (usize, usize) {
+        let judges: Vec<Judge> = scene.objects.iter().map(Judge::new).collect();
+        let bracket = |i: usize| (self.frame.lights[0].visible_lo[i], self.frame.lights[0].visible_hi[i]);
+        let partly = |i: &usize| bracket(*i).0 > 0.02 && bracket(*i).1 < 0.98;
+        let partly: Vec<usize> = self.inner.iter().copied().filter(partly).collect();
         let step = (partly.len() / pixels.max(1)).max(1);
         let chosen: Vec<usize> = partly.into_iter().step_by(step).collect();
+        // As many cells as may hide an edge between equal corners.
+        let slack = 4.0 / (n * n) as f64;
         let away = |i: &&usize| {
-            let d = film.ray(**i % self.size, **i / self.size).direction.mid();
-            let p = film.camera.eye + d * self.t[**i];
-            let share = lit_share(surface, p, &scene.lights[0].rect, n);
-            // A curve across the light crosses at most 4 n of the cells.
-            let slack = 4.0 / n as f64;
-            share < self.lo[**i] - slack || share > self.hi[**i] + slack
+            let (lo, hi) = bracket(**i);
+            let Some((own, p, before)) = found(scene, &judges, &self.frame, **i) else { return true };
+            !visible(&judges, own, &p, before, &scene.lights[0].rect, n).agree(lo, hi, slack)
         };
         (chosen.len(), chosen.iter().filter(away).count())
     }
-}
-
-/// The share of `n x n` points of the light from which no sign change is found on the way to the point.
-fn lit_share(surface: &Surface, p: antumbra::geom::Vec3, light: &Rect, n: usize) -> f64 {
-    let place = |k: usize| (2 * k + 1) as f64 / n as f64 - 1.0;
-    let mut seen = 0;
-    for k in 0..n * n {
-        let d = light.point(place(k % n), place(k / n)) - p;
-        let inside = |s: usize| {
-            let q = p + d * (1e-3 + s as f64 / 4000.0);
-            (surface.value)(q.0[0], q.0[1], q.0[2]) < 0.0
-        };
-        seen += usize::from(!(0..4000).any(inside));
-    }
-    seen as f64 / (n * n) as f64
 }

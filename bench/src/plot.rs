@@ -35,6 +35,8 @@ fn draw(rows: &[Row], path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     chart
         .configure_mesh()
         .disable_y_mesh()
+        .bold_line_style(BLACK.mix(0.25))
+        .light_line_style(BLACK.mix(0.07))
         .x_desc("CPU seconds")
         .y_labels(rows.len())
         .y_label_formatter(&|y| names.get(y.round() as usize).copied().unwrap_or_default().to_owned())
