@@ -3,6 +3,7 @@ use super::book::Book;
 use super::by_paper;
 use super::by_proof::{self, BLOCK};
 use super::crease;
+use super::crew::{Clock, Crew, std_clock};
 use super::given::{Given, Question};
 use super::spare::Spare;
 use super::state::{self, StateError, Stopped};
@@ -19,7 +20,7 @@ use std::io::{Read, Seek, Write};
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Draws one scene. Ask it to [`refine`](Self::refine) until it is done; look at [`frame`](Self::frame) and
 /// [`stats`](Self::stats) whenever you like. The frame is the same, bit for bit, for any number of threads and any
@@ -27,7 +28,8 @@ use std::time::{Duration, Instant};
 pub struct Renderer {
     task: Task,
     spec: RenderSpec,
-    pool: rayon::ThreadPool,
+    crew: Crew,
+    clock: Clock,
     grids: Vec<Grid>,
     book: Book,
     given: Option<Given>,
@@ -55,12 +57,13 @@ impl Renderer {
     pub fn new(scene: Arc<Scene>, spec: RenderSpec, run: RunSpec) -> Result<Self, Error> {
         spec.validate()?;
         let frame = Frame::new(spec.width, spec.height, scene.lights.len())?;
-        let pool = run.pool()?;
+        let crew = run.crew()?;
         let task = Task::new(scene, &spec)?;
-        let book = Book::new(frame, spec.method, pool.current_num_threads());
+        let book = Book::new(frame, spec.method, crew.size());
         let (stage, stop) = (Stage::Grid, Arc::default());
         let spare = Spare::default();
-        Ok(Self { task, spec, pool, grids: Vec::new(), book, given: None, stage, next_tile: 0, stop, spare })
+        let (grids, clock) = (Vec::new(), std_clock);
+        Ok(Self { task, spec, crew, clock, grids, book, given: None, stage, next_tile: 0, stop, spare })
     }
 
     /// Writes everything that is known, so that [`Renderer::resume`] can go on with it: some 50 to 300 bytes for each
@@ -87,7 +90,7 @@ impl Renderer {
         input: &mut (impl Read + Seek),
     ) -> Result<Self, StateError> {
         let mut renderer = Self::new(scene, spec, run)?;
-        let (task, threads) = (&renderer.task, renderer.pool.current_num_threads());
+        let (task, threads) = (&renderer.task, renderer.crew.size());
         let Stopped { stage, tiles, book } = state::read(&task.scene, &renderer.spec, task.lights.len(), input)?;
         if tiles > renderer.tiles() {
             return Err(StateError::Damaged);
@@ -95,9 +98,9 @@ impl Renderer {
         (renderer.stage, renderer.next_tile, renderer.book) = (stage, tiles, book);
         renderer.book.stats.threads = threads;
         if stage != Stage::Grid && matches!(renderer.task.method, Method::Paper(_)) {
-            let begin = Instant::now();
+            let begin = (renderer.clock)();
             renderer.build_grids();
-            renderer.book.stats.grid_seconds += begin.elapsed().as_secs_f64();
+            renderer.book.stats.grid_seconds += renderer.since(begin).as_secs_f64();
         }
         Ok(renderer)
     }
@@ -107,6 +110,16 @@ impl Renderer {
     #[must_use]
     pub fn stop_flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.stop)
+    }
+
+    /// Measures budgets and times by another clock than that of std.
+    pub fn set_clock(&mut self, clock: Clock) {
+        self.clock = clock;
+    }
+
+    /// The time since a moment of the clock.
+    fn since(&self, begin: Duration) -> Duration {
+        (self.clock)().saturating_sub(begin)
     }
 
     /// What the certified method is to prove: for those who can prove some of it faster.
@@ -163,12 +176,12 @@ impl Renderer {
 
     /// Works for about `budget` (at least one step) and tells whether the picture is finished.
     pub fn refine(&mut self, budget: Duration) -> bool {
-        let begin = Instant::now();
+        let begin = (self.clock)();
         while self.stage != Stage::Done {
-            let step = Instant::now();
+            let step = (self.clock)();
             let stage = self.stage;
             self.step();
-            let seconds = step.elapsed().as_secs_f64();
+            let seconds = self.since(step).as_secs_f64();
             let stats = &mut self.book.stats;
             match stage {
                 Stage::Grid => stats.grid_seconds += seconds,
@@ -176,7 +189,7 @@ impl Renderer {
                 Stage::Shadow => stats.shadow_seconds += seconds,
                 Stage::Edges | Stage::Done => stats.shading_seconds += seconds,
             }
-            if begin.elapsed() >= budget || self.stop.load(Ordering::Relaxed) {
+            if self.since(begin) >= budget || self.stop.load(Ordering::Relaxed) {
                 break;
             }
         }
@@ -271,7 +284,7 @@ impl Renderer {
 
     fn build_grids(&mut self) {
         let (task, n) = (&self.task, self.spec.grid);
-        self.grids = self.pool.install(|| by_paper::grids(task, n));
+        self.grids = self.crew.install(|| by_paper::grids(task, n));
         self.book.stats.grid_evaluations = self.grids.iter().map(Grid::evaluations).sum();
     }
 
@@ -288,7 +301,7 @@ impl Renderer {
             Stage::Done => return,
             Stage::Primary | Stage::Shadow | Stage::Edges => {}
         }
-        let end = (self.next_tile + 4 * self.pool.current_num_threads()).min(self.tiles());
+        let end = (self.next_tile + 4 * self.crew.size()).min(self.tiles());
         let batch = self.next_tile..end;
         self.next_tile += match self.stage {
             Stage::Primary => self.primary(batch),
@@ -384,14 +397,14 @@ impl Renderer {
     }
 
     fn put_colors(&mut self, pixels: &[usize], lit: bool) {
-        let Self { pool, book, task, .. } = self;
-        pool.install(|| book.put_colors(task, pixels, lit));
+        let Self { crew, book, task, .. } = self;
+        crew.install(|| book.put_colors(task, pixels, lit));
     }
 
     /// The work of the tiles of a batch in their order, up to the first that was not begun because of the stop flag.
     fn each<T: Send>(&self, batch: Range<usize>, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
         let begin = |turn| (!self.stop.load(Ordering::Relaxed)).then(|| work(turn));
-        let found: Vec<Option<T>> = self.pool.install(|| batch.into_par_iter().map(begin).collect());
+        let found: Vec<Option<T>> = self.crew.install(|| batch.into_par_iter().map(begin).collect());
         found.into_iter().map_while(|tile| tile).collect()
     }
 }
