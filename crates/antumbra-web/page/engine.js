@@ -51,10 +51,10 @@ export class Engine {
     return this.#json(this.#exports.report());
   }
 
-  /** Red, green, blue, opacity of every pixel; `overlay` may be "". */
-  pixels(overlay) {
+  /** Red, green, blue, opacity of every pixel; `overlay` may be ""; `lit` leaves out hits of whose light nothing is known. */
+  pixels(overlay, lit) {
     this.#write(overlay);
-    return new Uint8ClampedArray(this.#bytes(this.#exports.pixels()).buffer);
+    return new Uint8ClampedArray(this.#bytes(this.#exports.pixels(lit ? 1 : 0)).buffer);
   }
 
   legend(overlay) {

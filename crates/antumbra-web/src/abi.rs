@@ -100,8 +100,8 @@ extern "C" fn report() -> *const u8 {
 
 /// [`Studio::pixels`], of the overlay that the input names.
 #[unsafe(no_mangle)]
-extern "C" fn pixels() -> *const u8 {
-    leave(ask(|studio| studio.pixels(&text())))
+extern "C" fn pixels(lit: u32) -> *const u8 {
+    leave(ask(|studio| studio.pixels(&text(), lit != 0)))
 }
 
 /// [`Studio::legend`] of the overlay that the input names.

@@ -141,12 +141,14 @@ impl Studio {
     }
 
     /// The picture for a screen: red, green, blue and opacity of each pixel, rows from the top. What was not looked at is transparent.
-    /// With the name of an [`Overlay`], what is known instead.
+    /// With the name of an [`Overlay`], what is known instead. With `lit`, hits of whose light nothing is known are transparent too.
     #[must_use]
-    pub fn pixels(&self, overlay: &str) -> Vec<u8> {
+    pub fn pixels(&self, overlay: &str, lit: bool) -> Vec<u8> {
         let Some(renderer) = &self.renderer else { return Vec::new() };
         let frame = renderer.frame();
-        let seen = frame.verdict.iter().map(|v| if *v == Frame::UNSEEN { 0 } else { u8::MAX });
+        let waits = |at: usize| frame.lights.iter().any(|l| l.visible_lo[at] == 0.0 && l.visible_hi[at] == 1.0);
+        let hidden = |(at, verdict): (usize, &u8)| *verdict == Frame::UNSEEN || lit && waits(at);
+        let seen = frame.verdict.iter().enumerate().map(|pixel| if hidden(pixel) { 0 } else { u8::MAX });
         if let Some(overlay) = Overlay::from_name(overlay) {
             let legend = frame.legend(overlay, renderer.question().tolerance);
             let color = |(kind, seen): (&usize, u8)| {

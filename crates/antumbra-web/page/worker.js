@@ -1,0 +1,146 @@
+// Draws off the page's thread: first a coarse picture at once, then the whole, until the next request comes.
+import { Engine } from "./engine.js";
+
+/** A coarse picture should take about so many milliseconds; it has as many pixels as that allows. */
+const COARSE_TIME = 120;
+/** Sides of coarse pictures, in pixels. */
+const COARSE = { least: 32, most: 160 };
+/** What a coarse picture asks for: brackets of the light as wide as this. What it says is proved all the same. */
+const COARSE_PROOF = { tolerance: 1 / 16, rectangles: 16 };
+/** A coarse picture that takes longer gives way to the next request. */
+const PATIENCE = 1000;
+/** Work between two looks at the messages, and time between two pictures. */
+const SLICE = 30;
+const SHOW = 120;
+
+let engine = null;
+let next = null;
+let running = false;
+let shown = { id: 0, overlay: "", fine: false };
+/** Milliseconds per pixel of the last coarse picture. */
+let pace = 0.03;
+
+const { port1, port2 } = new MessageChannel();
+/** Lets waiting messages in. */
+function breathe() {
+  return new Promise((resolve) => {
+    port1.onmessage = resolve;
+    port2.postMessage(null);
+  });
+}
+
+const actions = {
+  start({ module }) {
+    engine = new Engine(module);
+    postMessage({ type: "ready" });
+  },
+  gallery() {
+    postMessage({ type: "gallery", gallery: engine.gallery() });
+  },
+  draw(request) {
+    next = request;
+    if (!running) run();
+  },
+  overlay({ overlay }) {
+    shown.overlay = overlay;
+    if (shown.id > 0) show(false);
+  },
+  inspect({ column, row }) {
+    postMessage({ type: "pixel", pixel: shown.fine ? engine.pixel(column, row) : null });
+  },
+  png() {
+    const bytes = engine.png(shown.overlay);
+    postMessage({ type: "png", bytes }, [bytes.buffer]);
+  },
+};
+
+onmessage = ({ data }) => attempt(() => actions[data.type](data));
+
+async function attempt(action) {
+  try {
+    await action();
+  } catch (error) {
+    // A trap: the module's memory is in an unknown state, and the page starts another worker.
+    postMessage({ type: "failed", message: engine?.panic() || String(error) });
+  }
+}
+
+async function run() {
+  running = true;
+  while (next) {
+    const request = next;
+    next = null;
+    await attempt(() => draw(request));
+  }
+  running = false;
+}
+
+async function draw({ id, request, overlay, thumbnail }) {
+  const began = performance.now();
+  postMessage({ type: "phase", id, phase: "coarse" });
+  shown = { id, overlay, fine: false };
+  if (thumbnail) {
+    const { error } = engine.open({ ...request, ...COARSE_PROOF });
+    while (!error && !engine.refine(SLICE) && performance.now() - began < thumbnail);
+    show(true);
+    return;
+  }
+  const { width, height } = coarse(request);
+  const scene = engine.open({
+    ...request,
+    width,
+    height,
+    tolerance: Math.max(request.tolerance, COARSE_PROOF.tolerance),
+    rectangles: COARSE_PROOF.rectangles,
+  });
+  if (scene.error) {
+    postMessage({ type: "refused", id, error: scene.error });
+    return;
+  }
+  postMessage({ type: "scene", id, scene });
+  const opened = performance.now();
+  let done = false;
+  while (!done) {
+    done = engine.refine(SLICE);
+    if (done || performance.now() - opened < PATIENCE) continue;
+    show(false);
+    await breathe();
+    if (next) return;
+  }
+  pace = (performance.now() - opened) / (width * height);
+  show(true);
+  await breathe();
+  if (next) return;
+
+  postMessage({ type: "phase", id, phase: "fine" });
+  engine.open(request);
+  shown.fine = true;
+  let last = performance.now();
+  for (;;) {
+    done = engine.refine(SLICE);
+    if (done || performance.now() - last > SHOW) {
+      show(done);
+      last = performance.now();
+    }
+    if (done) return;
+    await breathe();
+    if (next) return;
+  }
+}
+
+/** The size of a coarse picture: of the same shape, as large as the time allows. */
+function coarse({ width, height }) {
+  const shorter = Math.min(width, height);
+  const side = Math.sqrt((COARSE_TIME / pace) * (shorter / Math.max(width, height)));
+  const aim = Math.min(shorter, Math.max(COARSE.least, Math.min(COARSE.most, 16 * Math.floor(side / 16))));
+  return { width: Math.round((width * aim) / shorter), height: Math.round((height * aim) / shorter) };
+}
+
+function show(done) {
+  const { id, overlay, fine } = shown;
+  const report = engine.report();
+  // Under a fine picture lies the coarse one: a pixel covers it when its light is known.
+  const pixels = engine.pixels(overlay, fine && !done);
+  const legend = overlay ? engine.legend(overlay) : [];
+  postMessage({ type: "picture", id, fine, done, pixels, report, legend }, [pixels.buffer]);
+}
