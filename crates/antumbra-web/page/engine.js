@@ -18,7 +18,10 @@ export class Engine {
   }
 
   #write(text) {
-    const bytes = this.#encoder.encode(text);
+    this.#writeBytes(this.#encoder.encode(text));
+  }
+
+  #writeBytes(bytes) {
     const at = this.#exports.input(bytes.length);
     new Uint8Array(this.#exports.memory.buffer, at, bytes.length).set(bytes);
   }
@@ -45,6 +48,18 @@ export class Engine {
   /** Works for about that time; tells whether the picture is finished. */
   refine(milliseconds) {
     return this.#exports.refine(milliseconds) === 1;
+  }
+
+  /** Everything that is known of the picture, for another engine to join. */
+  state() {
+    return this.#bytes(this.#exports.state());
+  }
+
+  /** Takes over a finished part of the picture. */
+  join(state) {
+    this.#writeBytes(state);
+    const refusal = this.#decoder.decode(this.#bytes(this.#exports.join()));
+    if (refusal) throw new Error(refusal);
   }
 
   report() {

@@ -1,9 +1,9 @@
 // The gallery: a dialog of surfaces with small pictures, which draw themselves while they are looked at.
 import { Painter } from "./painter.js";
 
-const SIDE = 96;
+const SIDE = 80;
 /** A small picture gets so many milliseconds; what is known then is shown. */
-const TIME = 2500;
+const TIME = 4000;
 
 export class Gallery {
   #dialog = document.querySelector("#gallery");
@@ -70,7 +70,7 @@ export class Gallery {
 
   #paint() {
     if (!this.#dialog.open || this.#current || this.#waiting.length === 0) return;
-    this.#painter ??= new Painter(this.#module, {
+    const handlers = {
       picture: ({ pixels }) => {
         this.#current.getContext("2d").putImageData(new ImageData(pixels, SIDE, SIDE), 0, 0);
         this.#current = null;
@@ -80,7 +80,8 @@ export class Gallery {
         this.#current = null;
         this.#paint();
       },
-    });
+    };
+    this.#painter ??= new Painter(this.#module, handlers, 1);
     this.#current = this.#waiting.shift();
     this.#painter.draw({ scene: this.#current.dataset.name, width: SIDE, height: SIDE }, "", TIME);
   }

@@ -18,6 +18,8 @@ const context = canvas.getContext("2d");
 const formula = $("#formula");
 
 let state = fromHash(location.hash);
+/** For measurements: `?workers=1` in the address. */
+const workers = Number(new URLSearchParams(location.search).get("workers")) || null;
 /** The scene as the heart describes it: its own camera, light, parameters. */
 let scene = null;
 /** Formulas by the names of the gallery. */
@@ -25,6 +27,8 @@ const names = new Map();
 let painter = null;
 let gallery = null;
 let coarse = null;
+/** What is there of the whole picture, and who said what of it. */
+let whole = null;
 /** For whoever measures or tests: what was drawn last, and when. */
 const log = { asked: 0, first: 0, finished: 0, done: false, report: null, drawn: 0, refused: null };
 window.antumbra = { log, state: () => structuredClone(state) };
@@ -65,24 +69,50 @@ function choose(name) {
   change({ scene: name, set: {}, camera: null, light: null, floor: null });
 }
 
-function onPicture({ fine, done, pixels, report, legend }) {
+/** The pixels as something to draw with. */
+function canvasOf(pixels) {
   const side = Math.round(Math.sqrt(pixels.length / 4));
   const part = new OffscreenCanvas(side, side);
   part.getContext("2d").putImageData(new ImageData(pixels, side, side), 0, 0);
-  if (!fine) coarse = part;
-  const size = fine ? side : Math.max(side, state.size);
+  return part;
+}
+
+function onPicture({ id, fine, part, joined, done, pixels, report, legend }) {
+  const came = canvasOf(pixels);
+  if (!fine) coarse = came;
+  else {
+    if (whole?.id !== id) whole = { id, canvas: new OffscreenCanvas(came.width, came.width), reports: [], legends: [] };
+    // What a worker has not proved yet is transparent there.
+    const all = whole.canvas.getContext("2d");
+    if (done) all.clearRect(0, 0, came.width, came.width);
+    all.drawImage(came, 0, 0);
+    whole.reports[part] = report;
+    if (joined) whole.reports = [report];
+  }
+  const size = fine ? came.width : Math.max(came.width, state.size);
   if (canvas.width !== size) canvas.width = canvas.height = size;
   context.imageSmoothingQuality = "high";
-  if (coarse && !(fine && done)) context.drawImage(coarse, 0, 0, size, size);
-  if (fine) context.drawImage(part, 0, 0);
-  if (fine && done) coarse = part;
+  if (coarse && !done) context.drawImage(coarse, 0, 0, size, size);
+  if (fine) context.drawImage(whole.canvas, 0, 0);
+  if (fine && done) coarse = whole.canvas;
+  if (!fine && done) context.drawImage(coarse, 0, 0, size, size);
   $("#wait").hidden = true;
   log.first ||= performance.now();
   log.drawn += 1;
   Object.assign(log, { report, done: fine && done });
   if (log.done) log.finished = performance.now();
-  tell(fine, done, report);
-  showLegend(legend);
+  tell(fine, done, fine ? together(whole.reports) : report);
+  if (!fine || part === 0) showLegend(legend);
+}
+
+/** What several workers report of their parts, as one report. */
+function together(reports) {
+  const all = Object.values(reports);
+  const sum = (key) => all.reduce((total, report) => total + report[key], 0);
+  const counters = ["proved_empty", "proved_hit", "proved_edge", "undecided", "brackets", "brackets_closed", "evaluations"];
+  const totals = Object.fromEntries(counters.map((key) => [key, sum(key)]));
+  const [slowest] = all.toSorted((a, b) => a.progress - b.progress);
+  return { ...slowest, ...totals, progress: sum("progress") / Math.max(all.length, 1) };
 }
 
 const percent = (part, whole) => {
@@ -104,7 +134,7 @@ function tell(fine, done, report) {
       : `Proving: ${report.activity} …`;
   const seconds = report.seconds < 10 ? report.seconds.toFixed(1) : Math.round(report.seconds);
   const millions = (report.evaluations / 1e6).toFixed(1);
-  const threads = report.threads > 1 ? `, ${report.threads} threads` : "";
+  const threads = report.threads > 1 ? `, ${report.threads} workers` : "";
   $("#numbers").textContent = fine ? `${seconds} s, ${millions} million evaluations${threads}` : "";
 }
 
@@ -338,7 +368,7 @@ for (const input of document.querySelectorAll("[name=overlay]")) {
     state.overlay = input.value;
     history.replaceState(null, "", toHash(state));
     // The same picture in other colours: nothing is drawn anew.
-    painter?.ask({ type: "overlay", overlay: state.overlay });
+    painter?.overlay(state.overlay);
   });
 }
 
@@ -424,8 +454,8 @@ try {
     formula.value = names.get(state.scene) ?? state.scene;
     change({});
   };
-  painter = new Painter(module, handlers);
-  painter.begin({ type: "gallery" });
+  painter = new Painter(module, handlers, workers ?? undefined);
+  painter.ask({ type: "gallery" });
 } catch (error) {
   $("#wait").textContent = `This browser cannot draw here: ${error.message}`;
 }

@@ -1,4 +1,5 @@
-// Draws off the page's thread: first a coarse picture at once, then the whole, until the next request comes.
+// Draws off the page's thread: first a coarse picture at once, then the whole, until the next request comes. Several workers share a
+// whole picture: each proves its part of the tiles, and the first one joins them and does the rest.
 import { Engine } from "./engine.js";
 
 /** A coarse picture should take about so many milliseconds; it has as many pixels as that allows. */
@@ -17,6 +18,9 @@ let engine = null;
 let next = null;
 let running = false;
 let shown = { id: 0, overlay: "", fine: false };
+/** Parts that others have done of what is drawn, and who waits for one. */
+let parts = [];
+let wake = () => {};
 /** Milliseconds per pixel of the last coarse picture. */
 let pace = 0.03;
 
@@ -37,13 +41,16 @@ const actions = {
   gallery() {
     postMessage({ type: "gallery", gallery: engine.gallery() });
   },
-  draw(request) {
-    next = request;
-    if (!running) run();
+  draw: begin,
+  assist: begin,
+  stop: begin,
+  join(part) {
+    parts.push(part);
+    wake();
   },
   overlay({ overlay }) {
     shown.overlay = overlay;
-    if (shown.id > 0) show(false);
+    if (shown.id > 0) show(shown.done);
   },
   inspect({ column, row }) {
     postMessage({ type: "pixel", pixel: shown.fine ? engine.pixel(column, row) : null });
@@ -65,18 +72,56 @@ async function attempt(action) {
   }
 }
 
+/** Whatever is going on gives way to this. */
+function begin(message) {
+  next = message;
+  wake();
+  if (!running) run();
+}
+
 async function run() {
+  const works = { draw, assist, stop() {} };
   running = true;
   while (next) {
-    const request = next;
+    const message = next;
     next = null;
-    await attempt(() => draw(request));
+    postMessage({ type: "taken", count: message.count });
+    await attempt(() => works[message.type](message));
+    if (!next) postMessage({ type: "idle", count: message.count });
   }
   running = false;
 }
 
-async function draw({ id, request, overlay, thumbnail }) {
+/** Proves a part of a picture that another worker draws. */
+async function assist({ id, request, overlay, part }) {
+  shown = { id, overlay, fine: true, part: part[0] };
+  engine.open({ ...request, part });
+  await finish(false);
+  if (next) return;
+  const state = engine.state();
+  postMessage({ type: "part", id, state }, [state.buffer]);
+  // From here on the first worker knows more.
+  shown.id = 0;
+}
+
+/** Works and shows until the picture, or the part of it, is finished, or something else is to be done. */
+async function finish(whole) {
+  let last = performance.now();
+  for (;;) {
+    const done = engine.refine(SLICE);
+    if (done || performance.now() - last > SHOW) {
+      show(done && whole);
+      last = performance.now();
+    }
+    if (done) return;
+    await breathe();
+    if (next) return;
+  }
+}
+
+async function draw({ id, request, overlay, thumbnail, workers }) {
   const began = performance.now();
+  parts = [];
   postMessage({ type: "phase", id, phase: "coarse" });
   shown = { id, overlay, fine: false };
   if (thumbnail) {
@@ -113,18 +158,19 @@ async function draw({ id, request, overlay, thumbnail }) {
   if (next) return;
 
   postMessage({ type: "phase", id, phase: "fine" });
-  engine.open(request);
-  shown.fine = true;
-  let last = performance.now();
-  for (;;) {
-    done = engine.refine(SLICE);
-    if (done || performance.now() - last > SHOW) {
-      show(done);
-      last = performance.now();
-    }
-    if (done) return;
-    await breathe();
-    if (next) return;
+  engine.open(workers > 1 ? { ...request, part: [0, workers] } : request);
+  shown = { id, overlay: shown.overlay, fine: true, part: 0 };
+  await finish(workers === 1);
+  for (let missing = workers - 1; missing > 0 && !next; missing -= 1) {
+    parts = parts.filter((part) => part.id === id);
+    if (parts.length === 0) await new Promise((resolve) => (wake = resolve));
+    const part = parts.shift();
+    if (part?.id === id) engine.join(part.state);
+    else missing += 1;
+  }
+  if (workers > 1 && !next) {
+    shown.joined = true;
+    await finish(true);
   }
 }
 
@@ -137,10 +183,11 @@ function coarse({ width, height }) {
 }
 
 function show(done) {
-  const { id, overlay, fine } = shown;
+  shown.done = done;
+  const { id, overlay, fine, part, joined } = shown;
   const report = engine.report();
   // Under a fine picture lies the coarse one: a pixel covers it when its light is known.
   const pixels = engine.pixels(overlay, fine && !done);
   const legend = overlay ? engine.legend(overlay) : [];
-  postMessage({ type: "picture", id, fine, done, pixels, report, legend }, [pixels.buffer]);
+  postMessage({ type: "picture", id, fine, part, joined, done, pixels, report, legend }, [pixels.buffer]);
 }

@@ -92,6 +92,18 @@ extern "C" fn refine(milliseconds: u32) -> u32 {
     u32::from(STUDIO.with_borrow_mut(|studio| studio.refine(Duration::from_millis(milliseconds.into()))))
 }
 
+/// [`Studio::state`].
+#[unsafe(no_mangle)]
+extern "C" fn state() -> *const u8 {
+    leave(ask(Studio::state))
+}
+
+/// [`Studio::join`] of the bytes in the input.
+#[unsafe(no_mangle)]
+extern "C" fn join() -> *const u8 {
+    leave(INPUT.with_borrow(|bytes| STUDIO.with_borrow_mut(|studio| studio.join(bytes))))
+}
+
 /// [`Studio::report`].
 #[unsafe(no_mangle)]
 extern "C" fn report() -> *const u8 {

@@ -30,6 +30,9 @@ pub struct Request {
     /// Rectangles of the light that one hit may take.
     #[serde(default)]
     pub rectangles: Option<u32>,
+    /// Only part `[number, of]` of the picture: others draw the others.
+    #[serde(default)]
+    pub part: Option<[usize; 2]>,
 }
 
 /// A camera, as the view of a scene has it.

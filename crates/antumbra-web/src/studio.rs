@@ -8,6 +8,7 @@ use antumbra::render::{Clock, Frame, Overlay, RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{GALLERY, PRESETS, Parameter, Scene, SceneFile, View, file_named, named, number};
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::io::Cursor;
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -55,8 +56,8 @@ impl Studio {
         json(&GALLERY.iter().filter_map(|entry| exhibit(entry.name)).collect::<Vec<_>>())
     }
 
-    /// Begins to draw a [`Request`]; the answer describes the scene, or is `{"error": {message, help, place}}`, and then
-    /// everything is as it was.
+    /// Begins to draw a [`Request`]; the answer describes the scene, or is `{"error": {message, help, place}}`; then
+    /// the picture is the one that was there (but where memory is short: then there is none).
     pub fn open(&mut self, request: &str) -> String {
         #[derive(Serialize)]
         struct Failed {
@@ -73,10 +74,11 @@ impl Studio {
         if request.width.saturating_mul(request.height) > MOST_PIXELS {
             return Err(Refusal::new(format!("a picture here has at most {MOST_PIXELS} pixels")));
         }
-        let kept = self.built.take().filter(|b| b.text == request.scene && b.set == request.set);
+        let kept = self.built.take_if(|b| b.text == request.scene && b.set == request.set);
         let built = kept.map_or_else(|| build(request), Ok)?;
-        let own = &built.scene;
-        let mut scene = own.clone();
+        let mut scene = built.scene.clone();
+        let description = built.description();
+        self.built = Some(built);
         if let Some(CameraRequest { eye, target, angle }) = request.camera {
             scene.view = View { eye: Vec3(eye), target: Vec3(target), fov_deg: angle };
             check_view(&scene.view)?;
@@ -98,22 +100,43 @@ impl Studio {
             rectangles: request.rectangles.unwrap_or(usual.rectangles),
             ..usual
         };
-        let description = built.description();
-        self.built = Some(built);
-        // The memory of the last picture first.
-        self.renderer = None;
         let refuse = |e: antumbra::render::Error| Refusal::new(e.to_string());
+        spec.validate().map_err(refuse)?;
+        if let Some([number, of]) = request.part.filter(|[number, of]| number >= of) {
+            return Err(Refusal::new(format!("there is no part {number} of {of}")));
+        }
+        // The memory of the last picture first: from here on only a lack of it can be in the way.
+        self.renderer = None;
         let mut renderer = Renderer::new(Arc::new(scene), spec, RunSpec::default()).map_err(refuse)?;
         if let Some(clock) = self.clock {
             renderer.set_clock(clock);
+        }
+        if let Some([number, of]) = request.part {
+            renderer.take_part(number, of);
         }
         self.renderer = Some(renderer);
         Ok(description)
     }
 
-    /// Goes on with the picture for about that time; tells whether it is finished, or there is none.
+    /// Goes on with the picture for about that time; tells whether it, or the part of it, is finished, or there is none.
     pub fn refine(&mut self, budget: Duration) -> bool {
         self.renderer.as_mut().is_none_or(|renderer| renderer.refine(budget))
+    }
+
+    /// Everything that is known of the picture, for [`Studio::join`] of another studio; empty where there is none.
+    #[must_use]
+    pub fn state(&self) -> Vec<u8> {
+        let mut state = Vec::new();
+        match self.renderer.as_ref().map(|renderer| renderer.save(&mut state)) {
+            Some(Ok(())) => state,
+            Some(Err(_)) | None => Vec::new(),
+        }
+    }
+
+    /// Takes over a finished part from the state of another studio; an empty text, or why it cannot.
+    pub fn join(&mut self, state: &[u8]) -> String {
+        let Some(renderer) = &mut self.renderer else { return "there is no picture".to_owned() };
+        renderer.join(&mut Cursor::new(state)).err().map(|e| e.to_string()).unwrap_or_default()
     }
 
     /// How far it is.
