@@ -41,12 +41,10 @@ const light = () => state.light ?? (scene?.light && { center: scene.light.center
 let pending = false;
 /** Asks for the picture of the state, once per frame of the screen at most. */
 function draw() {
-  log.asked ||= performance.now();
   if (pending || !painter) return;
   pending = true;
   requestAnimationFrame(() => {
     pending = false;
-    Object.assign(log, { first: 0, finished: 0, done: false, refused: null });
     const { size, tolerance, set, overlay } = state;
     const request = { scene: state.scene, set, width: size, height: size, tolerance: 1 / tolerance };
     if (state.camera) request.camera = state.camera;
@@ -59,7 +57,7 @@ function draw() {
 
 function change(changes) {
   state = { ...state, ...changes };
-  log.asked = performance.now();
+  Object.assign(log, { asked: performance.now(), first: 0, finished: 0, done: false, refused: null });
   draw();
 }
 
@@ -97,7 +95,7 @@ function onPicture({ id, fine, part, joined, done, pixels, report, legend }) {
   if (fine && done) coarse = whole.canvas;
   if (!fine && done) context.drawImage(coarse, 0, 0, size, size);
   $("#wait").hidden = true;
-  log.first ||= performance.now();
+  if (id === painter.id) log.first ||= performance.now();
   log.drawn += 1;
   Object.assign(log, { report, done: fine && done });
   if (log.done) log.finished = performance.now();

@@ -116,6 +116,11 @@ export class Painter {
     this.#helpers.forEach((hand, k) => hand.work({ ...this.#now, type: "assist", part: [k + 1, workers] }));
   }
 
+  /** Number of the picture that was asked for last. */
+  get id() {
+    return this.#id;
+  }
+
   /** Draws this and nothing else. */
   draw(request, overlay, thumbnail = 0) {
     const workers = this.#helpers.length + 1;
