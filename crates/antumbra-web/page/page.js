@@ -30,7 +30,7 @@ let coarse = null;
 /** What is there of the whole picture, and who said what of it. */
 let whole = null;
 /** For whoever measures or tests: what was drawn last, and when. */
-const log = { asked: 0, first: 0, finished: 0, done: false, report: null, drawn: 0, refused: null };
+const log = { asked: 0, first: 0, side: 0, finished: 0, done: false, report: null, drawn: 0, refused: null };
 window.antumbra = { log, state: () => structuredClone(state) };
 
 const camera = () => state.camera ?? scene?.camera;
@@ -95,7 +95,7 @@ function onPicture({ id, fine, part, joined, done, pixels, report, legend }) {
   if (fine && done) coarse = whole.canvas;
   if (!fine && done) context.drawImage(coarse, 0, 0, size, size);
   $("#wait").hidden = true;
-  if (id === painter.id) log.first ||= performance.now();
+  if (id === painter.id && !log.first) Object.assign(log, { first: performance.now(), side: came.width });
   log.drawn += 1;
   Object.assign(log, { report, done: fine && done });
   if (log.done) log.finished = performance.now();
@@ -128,7 +128,8 @@ function tell(fine, done, report) {
   $("#status").textContent = !fine
     ? "A coarse picture; each of its pixels is proved or says that it is not"
     : done
-      ? `Proved: ${percent(proved, report.pixels)} of the pixels, ${percent(report.brackets_closed, report.brackets)} of the light`
+      ? `Proved: ${percent(proved, report.pixels)} of the pixels; the light to 1/${state.tolerance} at ` +
+        `${percent(report.brackets_closed, report.brackets)} of the hits`
       : `Proving: ${report.activity} …`;
   const seconds = report.seconds < 10 ? report.seconds.toFixed(1) : Math.round(report.seconds);
   const millions = (report.evaluations / 1e6).toFixed(1);
@@ -158,7 +159,6 @@ function onScene({ scene: described }) {
   heading.textContent = title === "Formula" ? "" : title;
   const who = [about?.author, about?.year].filter(Boolean).join(", ");
   $("#about").replaceChildren(heading, who ? ` — ${who}. ` : " ", about?.history ?? "");
-  if (!names.has(state.scene) && names.size > 0) $("#about").replaceChildren();
   document.title = `${title === "Formula" ? "Formula" : title} – Antumbra`;
   canvas.setAttribute("aria-label", `The surface ${title}`);
   showParameters(parameters);

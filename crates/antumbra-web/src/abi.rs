@@ -3,7 +3,10 @@
 //! A call that takes a text finds it in the input: JavaScript asks for room ([`input`]) and writes there. A call that returns a text or
 //! bytes leaves them in the output and returns where; [`output_length`] tells how many. Both stay until the next call. No pointer is
 //! followed here: the host writes into memory that is all its own to write.
-#![expect(unsafe_code, reason = "names of exports and imports are promises that no compiler can check; there is no unsafe block")]
+#![expect(
+    unsafe_code,
+    reason = "names of exports and imports are promises that no compiler can check; there is no unsafe block"
+)]
 use crate::Studio;
 use std::cell::RefCell;
 use std::sync::{Mutex, PoisonError};

@@ -44,7 +44,13 @@ impl Studio {
     #[must_use]
     pub fn gallery(&self) -> String {
         let exhibit = |name: &'static str| {
-            let of = |title: String, formula: String| Exhibit { name: name.to_owned(), title, author: None, year: None, formula };
+            let of = |title: String, formula: String| Exhibit {
+                name: name.to_owned(),
+                title,
+                author: None,
+                year: None,
+                formula,
+            };
             if let Some(preset) = PRESETS.iter().find(|p| p.name == name) {
                 return Some(of(preset.title.to_owned(), preset.formula.to_owned()));
             }

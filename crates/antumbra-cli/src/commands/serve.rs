@@ -32,7 +32,8 @@ const PAUSE: Duration = Duration::from_millis(100);
 /// Where there is no page, or the address cannot be listened on.
 pub(super) fn run(args: &ServeArgs) -> Result<()> {
     let site = Arc::new(Site::read(&args.folder)?);
-    let runtime = tokio::runtime::Builder::new_current_thread().enable_all().build().context("cannot start to serve")?;
+    let runtime =
+        tokio::runtime::Builder::new_current_thread().enable_all().build().context("cannot start to serve")?;
     let address = SocketAddr::new(args.address, args.port);
     runtime.block_on(async {
         let listener = TcpListener::bind(address).await;
