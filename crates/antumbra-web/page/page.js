@@ -137,6 +137,8 @@ function tell(fine, done, report) {
   $("#numbers").textContent = fine ? `${seconds} s, ${millions} million evaluations${threads}` : "";
 }
 
+const sentence = (text) => text.charAt(0).toUpperCase() + text.slice(1);
+
 function showLegend(legend) {
   const list = $("#legend");
   list.hidden = legend.length === 0;
@@ -171,7 +173,7 @@ function onRefused({ error }) {
   log.refused = error;
   const { message, help, place } = error;
   $("#error").hidden = false;
-  $("#reason").textContent = help ? `${message}. ${help}` : message;
+  $("#reason").textContent = help ? `${sentence(message)}. ${sentence(help)}` : sentence(message);
   formula.setAttribute("aria-invalid", "true");
   const caret = $("#caret");
   caret.hidden = !place;
@@ -213,7 +215,7 @@ function onPixel({ pixel }) {
     return;
   }
   const bold = (text) => Object.assign(document.createElement("b"), { textContent: text });
-  const parts = [bold(pixel.verdict[0].toUpperCase() + pixel.verdict.slice(1))];
+  const parts = [bold(sentence(pixel.verdict))];
   if (pixel.t) {
     const [lo, hi] = pixel.t;
     parts.push(` at distance ${lo.toPrecision(9)} … ${hi.toPrecision(9)} (${(hi - lo).toExponential(0)} wide)`);
