@@ -1,9 +1,10 @@
 // What the page costs, in numbers: node crates/antumbra-web/tests/measure.js [SIZE]. Needs what page.test.js needs.
 //
 // For each scene: milliseconds from a turn of the camera (a press of a key) to the first picture and to the whole proof, with one worker
-// and with all; then seconds of the module against the program, one thread each, in one run, one after the other.
-import { execFileSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+// and with two; then user time of the module, by Node's V8, against that of the program, one thread each, in turns.
+import { spawnSync } from "node:child_process";
+import { mkdtempSync, readFileSync, rmSync } from "node:fs";
+import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { fileURLToPath } from "node:url";
 import { gzipSync } from "node:zlib";
@@ -42,30 +43,36 @@ try {
       console.log(`| ${scene} | ${workers} | ${median(firsts).toFixed(0)} | ${median(sides)} | ${median(proofs).toFixed(0)} |`);
     }
   }
-  console.log(`\n| ${size} x ${size}, one thread | program, s | WebAssembly, s | ratio |\n|---|---|---|---|`);
-  for (const scene of SCENES) {
-    const [natives, ours] = [[], []];
-    for (let round = 0; round < 3; round += 1) {
-      const options = ["--size", String(size), "--threads", "1", "--quiet", "--json", "-", "-o", "/dev/null"];
-      natives.push(JSON.parse(execFileSync(program, ["render", scene, ...options])).seconds);
-      ours.push(
-        await page.evaluate(
-          async ({ scene, size }) => {
-            const { compile, Engine } = await import("./engine.js");
-            window.compiled ??= await compile("antumbra.wasm");
-            const engine = new Engine(window.compiled);
-            engine.open({ scene, width: size, height: size });
-            while (!engine.refine(1000));
-            return engine.report().seconds;
-          },
-          { scene, size },
-        ),
-      );
-    }
-    const [native, own] = [median(natives), median(ours)];
-    console.log(`| ${scene} | ${native.toFixed(2)} | ${own.toFixed(2)} | ${(own / native).toFixed(1)} |`);
-  }
 } finally {
   await close();
   server.close();
 }
+
+const { Engine } = await import(join(folder, "engine.js"));
+const module = new WebAssembly.Module(wasm);
+/** Seconds of user time that something takes, of all threads of this process. */
+const user = (work) => {
+  const before = process.cpuUsage().user;
+  work();
+  return (process.cpuUsage().user - before) / 1e6;
+};
+const scratch = mkdtempSync(join(tmpdir(), "antumbra-measure-"));
+const engine = new Engine(module);
+const draw = (scene) => {
+  engine.open({ scene, width: size, height: size });
+  while (!engine.refine(1000));
+};
+console.log(`\n| ${size} x ${size}, one thread, user time | program, s | WebAssembly (V8), s | ratio |\n|---|---|---|---|`);
+for (const scene of SCENES) {
+  const [natives, ours] = [[], []];
+  // The first time V8 still compiles.
+  draw(scene);
+  for (let round = 0; round < 3; round += 1) {
+    const timed = ["-c", 'TIMEFORMAT=%U; time "$0" "$@"', program, "render", scene, "--size", String(size), "--threads", "1"];
+    natives.push(Number(spawnSync("bash", [...timed, "--quiet", "-o", join(scratch, "p.png")], { encoding: "utf8" }).stderr.trim()));
+    ours.push(user(() => draw(scene)));
+  }
+  const [native, own] = [median(natives), median(ours)];
+  console.log(`| ${scene} | ${native.toFixed(2)} | ${own.toFixed(2)} | ${(own / native).toFixed(1)} |`);
+}
+rmSync(scratch, { recursive: true });
