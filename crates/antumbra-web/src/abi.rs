@@ -5,7 +5,7 @@
 //! followed here: the host writes into memory that is all its own to write.
 #![expect(
     unsafe_code,
-    reason = "names of exports and imports are promises that no compiler can check; there is no unsafe block"
+    reason = "names of exports and imports are promises that no compiler can check; there is no such block"
 )]
 use crate::Studio;
 use std::cell::RefCell;
