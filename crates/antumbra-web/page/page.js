@@ -18,7 +18,7 @@ const context = canvas.getContext("2d");
 const formula = $("#formula");
 
 let state = fromHash(location.hash);
-/** For measurements: `?workers=1` in the address. */
+/** For measurements: `?workers=2` in the address makes so many share every picture. */
 const workers = Number(new URLSearchParams(location.search).get("workers")) || null;
 /** The scene as the heart describes it: its own camera, light, parameters. */
 let scene = null;
@@ -454,7 +454,7 @@ try {
     formula.value = names.get(state.scene) ?? state.scene;
     change({});
   };
-  painter = new Painter(module, handlers, workers ?? undefined);
+  painter = new Painter(module, handlers, workers ?? undefined, workers !== null);
   painter.ask({ type: "gallery" });
 } catch (error) {
   $("#wait").textContent = `This browser cannot draw here: ${error.message}`;

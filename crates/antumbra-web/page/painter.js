@@ -3,8 +3,9 @@
 
 /** Milliseconds after which a worker that draws something older is replaced: in a coarse picture, and in a fine one. */
 const PATIENCE = { coarse: 2500, fine: 150 };
-/** Most workers: each holds a picture of its own. */
+/** Most workers, and most for pictures of more pixels than this: each holds a picture of its own, half a kilobyte for each pixel. */
 const MOST = 6;
+const LARGE = { pixels: 600_000, most: 2 };
 
 /** As many as there are processors, within reason. */
 export const WORKERS = Math.max(1, Math.min(MOST, navigator.hardwareConcurrency || 1));
@@ -76,10 +77,15 @@ export class Painter {
   #impatience = 0;
   #lateness = 0;
   #handlers;
+  #share;
 
-  /** `module` is the compiled heart; `handlers` are functions by the type of a worker's message. */
-  constructor(module, handlers, workers = WORKERS) {
+  /**
+   * `module` is the compiled heart; `handlers` are functions by the type of a worker's message. `share` is for measurements: all workers
+   * share every picture, however soon one of them would have it.
+   */
+  constructor(module, handlers, workers = WORKERS, share = false) {
     this.#handlers = handlers;
+    this.#share = share;
     this.#lead = new Hand(module, (message) => this.#hear(message));
     for (let k = 1; k < workers; k += 1) {
       this.#helpers.push(new Hand(module, (message) => this.#hearHelper(message)));
@@ -90,7 +96,7 @@ export class Painter {
     if (message.type === "phase") {
       this.#phase = message.phase;
       if (message.id === this.#id) clearTimeout(this.#impatience);
-      if (message.id === this.#id && message.phase === "fine") this.#share();
+      if (message.id === this.#id && message.shared) this.#dealOut();
     }
     if (message.type === "idle") this.#phase = this.#lead.busy ? this.#phase : "idle";
     if (message.type === "failed") this.#lead.replace();
@@ -111,9 +117,9 @@ export class Painter {
   }
 
   /** Gives the helpers their parts of the picture. */
-  #share() {
-    const workers = this.#helpers.length + 1;
-    this.#helpers.forEach((hand, k) => hand.work({ ...this.#now, type: "assist", part: [k + 1, workers] }));
+  #dealOut() {
+    const { workers } = this.#now;
+    this.#helpers.slice(0, workers - 1).forEach((hand, k) => hand.work({ ...this.#now, type: "assist", part: [k + 1, workers] }));
   }
 
   /** Number of the picture that was asked for last. */
@@ -123,8 +129,9 @@ export class Painter {
 
   /** Draws this and nothing else. */
   draw(request, overlay, thumbnail = 0) {
-    const workers = this.#helpers.length + 1;
-    const message = { type: "draw", id: ++this.#id, request, overlay, thumbnail, workers };
+    const most = request.width * request.height > LARGE.pixels ? LARGE.most : MOST;
+    const workers = Math.min(most, this.#helpers.length + 1);
+    const message = { type: "draw", id: ++this.#id, request, overlay, thumbnail, workers, share: this.#share };
     this.#now = message;
     clearTimeout(this.#impatience);
     const patience = PATIENCE[this.#phase];

@@ -10,6 +10,10 @@ const COARSE = { least: 32, most: 160 };
 const COARSE_PROOF = { tolerance: 1 / 16, rectangles: 16 };
 /** A coarse picture that takes longer gives way to the next request. */
 const PATIENCE = 1000;
+/** A picture that will take so many milliseconds is shared with other workers: to join a part takes a quarter of a second. */
+const SHARE_FROM = 4000;
+/** How much longer a picture of n times as many pixels takes: n to this power, for the paper's surfaces. */
+const GROWTH = 0.6;
 /** Work between two looks at the messages, and time between two pictures. */
 const SLICE = 30;
 const SHOW = 120;
@@ -119,7 +123,7 @@ async function finish(whole) {
   }
 }
 
-async function draw({ id, request, overlay, thumbnail, workers }) {
+async function draw({ id, request, overlay, thumbnail, workers, share }) {
   const began = performance.now();
   parts = [];
   postMessage({ type: "phase", id, phase: "coarse" });
@@ -157,10 +161,13 @@ async function draw({ id, request, overlay, thumbnail, workers }) {
   await breathe();
   if (next) return;
 
-  postMessage({ type: "phase", id, phase: "fine" });
-  engine.open(workers > 1 ? { ...request, part: [0, workers] } : request);
+  const forecast = (performance.now() - opened) * ((request.width * request.height) / (width * height)) ** GROWTH;
+  const shared = workers > 1 && (share || forecast > SHARE_FROM);
+  postMessage({ type: "phase", id, phase: "fine", shared });
+  engine.open(shared ? { ...request, part: [0, workers] } : request);
   shown = { id, overlay: shown.overlay, fine: true, part: 0 };
-  await finish(workers === 1);
+  await finish(!shared);
+  if (!shared) return;
   for (let missing = workers - 1; missing > 0 && !next; missing -= 1) {
     parts = parts.filter((part) => part.id === id);
     if (parts.length === 0) await new Promise((resolve) => (wake = resolve));
@@ -168,7 +175,7 @@ async function draw({ id, request, overlay, thumbnail, workers }) {
     if (part?.id === id) engine.join(part.state);
     else missing += 1;
   }
-  if (workers > 1 && !next) {
+  if (!next) {
     shown.joined = true;
     await finish(true);
   }

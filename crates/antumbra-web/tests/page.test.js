@@ -35,9 +35,9 @@ after(async () => {
 });
 
 /** Opens the page as somebody who comes by this link, and waits for the whole picture. */
-async function visit(hash) {
+async function visit(hash, query = "") {
   await page.goto("about:blank");
-  await page.goto(`${server.address}${hash}`);
+  await page.goto(`${server.address}${query}${hash}`);
   await finished(page);
 }
 
@@ -108,8 +108,9 @@ test("Chubs are drawn, and counted as the program counts", async () => {
   assert.ok(await page.evaluate(() => crossOriginIsolated), "the server isolates the page");
 });
 
-test("the PNG is the one that the program writes", async () => {
-  await visit("#scene=chubs&size=128");
+test("workers that share a picture make the PNG that the program writes", async () => {
+  await visit("#scene=chubs&size=128", "?workers=3");
+  assert.equal((await log()).report.threads, 3);
   const [download] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "PNG" }).click()]);
   assert.equal(download.suggestedFilename(), "chubs.png");
   const native = join(scratch, "native.png");
