@@ -11,6 +11,7 @@ mod paper;
 mod record;
 mod render;
 mod scene;
+mod serve;
 
 use std::{
     sync::atomic::Ordering,
@@ -45,6 +46,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Command::Gallery(args) => gallery::run(&GalleryOptions::new(args)?),
         Command::Scene(command) => scene::run(&command),
         Command::Info => info::run(),
+        Command::Serve(args) => serve::run(&args),
         Command::Completions(args) => manual::completions(&args),
         Command::Man(args) => manual::man(&args),
     }

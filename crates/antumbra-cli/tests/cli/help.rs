@@ -3,7 +3,7 @@
 use crate::bench::Bench;
 use predicates::str::contains;
 
-const COMMANDS: [&[&str]; 12] = [
+const COMMANDS: [&[&str]; 13] = [
     &["render"],
     &["compare"],
     &["paper"],
@@ -14,6 +14,7 @@ const COMMANDS: [&[&str]; 12] = [
     &["scene", "check"],
     &["scene", "show"],
     &["info"],
+    &["serve"],
     &["completions"],
     &["man"],
 ];

@@ -50,6 +50,37 @@ impl Book {
             && self.edges.keys().all(|index| *index < n)
     }
 
+    /// Takes over what another book of the same picture knows, and tells whether it can: not where both know something of a pixel.
+    pub(super) fn join(&mut self, other: Self) -> bool {
+        let seen = |book: &Self, index: usize| book.frame.verdict[index] != Frame::UNSEEN;
+        if (0..self.hits.len()).any(|index| seen(self, index) && seen(&other, index)) {
+            return false;
+        }
+        for index in (0..self.hits.len()).filter(|index| seen(&other, *index)) {
+            let (to, from) = (&mut self.frame, &other.frame);
+            to.verdict[index] = from.verdict[index];
+            (to.t_lo[index], to.t_hi[index]) = (from.t_lo[index], from.t_hi[index]);
+            to.normal[index] = from.normal[index];
+            to.rgb[index] = from.rgb[index];
+            (to.coverage_lo[index], to.coverage_hi[index]) = (from.coverage_lo[index], from.coverage_hi[index]);
+            to.cost[index] = from.cost[index];
+            for (to, from) in to.lights.iter_mut().zip(&from.lights) {
+                (to.visible_lo[index], to.visible_hi[index]) = (from.visible_lo[index], from.visible_hi[index]);
+                to.facing[index] = from.facing[index];
+                to.initial_occluded[index] = from.initial_occluded[index];
+            }
+            (self.hits[index], self.primary_cost[index]) = (other.hits[index], other.primary_cost[index]);
+        }
+        self.edges.extend(other.edges);
+        self.stats.join(&other.stats);
+        true
+    }
+
+    /// Whether every pixel was looked at.
+    pub(super) fn is_whole(&self) -> bool {
+        !self.frame.verdict.contains(&Frame::UNSEEN)
+    }
+
     pub(super) fn hit(&self, index: usize) -> Option<&Hit> {
         self.hits[index].as_ref()
     }

@@ -19,7 +19,7 @@ pub use camera::View;
 pub use entry::{CameraEntry, ClipEntry, ColorBy, FloorEntry, LightEntry, SurfaceEntry, TransformEntry};
 pub use file::{FileError, Parameter, Ranged, SceneFile};
 pub use framing::{Extent, extent};
-pub use gallery::{GALLERY, GalleryEntry, named, names};
+pub use gallery::{GALLERY, GalleryEntry, file_named, named, names};
 pub use light::Light;
 pub use look::{Automatic, Backdrop, ColorMap, Coloring, Exposure, Field, Finish, Look, Output, Reflection, Sky, Tone};
 pub use object::{Colors, Error, Object};
