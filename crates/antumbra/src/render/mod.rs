@@ -10,6 +10,7 @@ mod crew;
 mod develop;
 mod frame;
 mod given;
+mod hits;
 mod irradiance;
 mod overlay;
 mod pixel;
