@@ -109,7 +109,7 @@ function together(reports) {
   const sum = (key) => all.reduce((total, report) => total + report[key], 0);
   const counters = ["proved_empty", "proved_hit", "proved_edge", "undecided", "brackets", "brackets_closed", "evaluations"];
   const totals = Object.fromEntries(counters.map((key) => [key, sum(key)]));
-  const [slowest] = all.toSorted((a, b) => a.progress - b.progress);
+  const [slowest] = [...all].sort((a, b) => a.progress - b.progress);
   return { ...slowest, ...totals, progress: sum("progress") / Math.max(all.length, 1) };
 }
 

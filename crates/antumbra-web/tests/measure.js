@@ -17,7 +17,7 @@ const size = Number(process.argv[2] ?? 512);
 const SCENES = ["orthocircle", "chubs", "kusner", "mcmullen"];
 const ROUNDS = 5;
 
-const median = (list) => list.toSorted((a, b) => a - b)[list.length >> 1];
+const median = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
 const wasm = readFileSync(join(folder, "antumbra.wasm"));
 console.log(`antumbra.wasm: ${wasm.length} bytes, ${gzipSync(wasm, { level: 9 }).length} with gzip -9`);
 

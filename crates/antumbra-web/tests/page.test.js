@@ -13,7 +13,7 @@ import { fileURLToPath } from "node:url";
 import { browse, finished, serve } from "./browser.js";
 
 const root = join(dirname(fileURLToPath(import.meta.url)), "../../..");
-const program = process.env.ANTUMBRA ?? join(root, "target/debug/antumbra");
+const program = process.env.ANTUMBRA ?? join(process.env.CARGO_TARGET_DIR ?? join(root, "target"), "debug/antumbra");
 const folder = process.env.PAGE ?? join(root, "target/web");
 
 let server, browser, page, scratch;
