@@ -224,6 +224,12 @@ pub(crate) fn functions(
         return Err(Error::Scene("coordinates as large as these are not for 32-bit numbers"));
     }
     let mut text = format!("const SURFACES = {}u;\n", surfaces.len());
+    if surfaces.iter().filter_map(|s| s.function.as_tape()).any(wgsl::needs_functions) {
+        text.push_str(wgsl::FUNCTIONS);
+        if kinds.contains(&Kind::Interval) {
+            text.push_str(wgsl::INTERVAL_FUNCTIONS);
+        }
+    }
     let mut choose: Vec<String> = vec![String::new(); kinds.len()];
     for (k, surface) in surfaces.iter().enumerate() {
         let tape: &Tape = surface.function.as_tape().ok_or(wgsl::Refusal::NoFormula)?;
