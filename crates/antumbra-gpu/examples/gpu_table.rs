@@ -233,10 +233,10 @@ fn draw(
     let stop = AtomicBool::new(false);
     let mut times: Vec<Vec<f64>> = Vec::new();
     let mut walls = Vec::new();
-    let mut proved = kernels.prove(gpu, &stop)?;
+    let mut proved = kernels.prove(gpu, &stop, &mut |_| ())?;
     for _ in 1..repeats {
         let begin = Instant::now();
-        proved = kernels.prove(gpu, &stop)?;
+        proved = kernels.prove(gpu, &stop, &mut |_| ())?;
         walls.push(begin.elapsed().as_secs_f64());
         times.push(proved.seconds.clone());
     }

@@ -9,6 +9,9 @@ mod assist;
 mod certified;
 mod compare;
 mod device;
+#[cfg(test)]
+mod faults;
+mod pace;
 mod paper;
 pub mod probe;
 mod scene;
@@ -18,7 +21,7 @@ mod tests;
 mod twin;
 
 pub use assist::{Share, assist};
-pub use certified::{Kernels, Pixel, Proved};
+pub use certified::{Kernels, Pixel, Proved, check};
 pub use compare::{Comparison, compare};
 pub use device::{Adapter, Error, Gpu, adapters};
 pub use paper::{Found, Paper};

@@ -91,7 +91,7 @@ pub(crate) fn run_text(gpu: &Gpu, text: &str) -> Result<Report, Error> {
     let fenced = gpu.storage((cases.len() * 48) as u64)?;
     let bare = gpu.storage((cases.len() * 24) as u64)?;
     let functions = gpu.storage((cases.len() * 48) as u64)?;
-    let pipeline = gpu.pipeline(&gpu.module(text)?, "probe", &[])?;
+    let pipeline = gpu.pipeline(text, "probe", &[])?;
     let bind = gpu.bind(&pipeline, &[(0, &zero), (1, &input), (2, &fenced), (3, &bare), (4, &functions)])?;
     gpu.run(&[Pass { pipeline: &pipeline, bind: &bind, groups: [cases.len().div_ceil(64) as u32, 1, 1] }])?;
     let fenced: Vec<[f32; 12]> = gpu.read(&fenced)?;

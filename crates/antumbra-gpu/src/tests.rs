@@ -31,7 +31,7 @@ const FORMULAS: [&str; 15] = [
 ];
 
 /// The adapter; `None`, said loudly, where there is none and `ANTUMBRA_GPU_REQUIRED` is not set.
-fn gpu() -> Option<Gpu> {
+pub(crate) fn gpu() -> Option<Gpu> {
     match Gpu::open(true) {
         Ok(gpu) => Some(gpu),
         Err(Error::NoAdapter) if std::env::var_os("ANTUMBRA_GPU_REQUIRED").is_none() => {
@@ -49,8 +49,7 @@ fn tape(text: &str) -> Tape {
 /// Runs `entry` once per input.
 fn evaluate<I: bytemuck::Pod, O: bytemuck::Pod>(gpu: &Gpu, text: &str, inputs: &[I]) -> Vec<O> {
     let head = "@group(0) @binding(0) var<uniform> zero: vec4<u32>;\nfn runtime_zero() -> u32 { return zero.x; }\n";
-    let module = gpu.module(&format!("{head}{text}")).unwrap();
-    let pipeline = gpu.pipeline(&module, "main", &[]).unwrap();
+    let pipeline = gpu.pipeline(&format!("{head}{text}"), "main", &[]).unwrap();
     let zero = gpu.filled(bytemuck::cast_slice(&[0_u32; 4]), BufferUsages::UNIFORM).unwrap();
     let input = gpu.filled(bytemuck::cast_slice(inputs), BufferUsages::STORAGE).unwrap();
     let output = gpu.storage((inputs.len() * size_of::<O>()) as u64).unwrap();

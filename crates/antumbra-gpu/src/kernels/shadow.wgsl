@@ -2,7 +2,7 @@
 // one thread per part: certified shares are added up as integers.
 
 @group(0) @binding(2) var<storage, read> found: array<vec4<u32>>;
-// Per pixel: the lit share and the hidden share that are proved, in units of 2^-30.
+// Per pixel of the band: the lit share and the hidden share that are proved, in units of 2^-30.
 @group(0) @binding(3) var<storage, read_write> lit: array<atomic<u32>>;
 @group(0) @binding(4) var<storage, read_write> dark: array<atomic<u32>>;
 struct List { count: atomic<u32>, items: array<vec4<u32>> }
@@ -27,7 +27,7 @@ struct Hit { p: vec3<f32>, e: vec3<f32>, surface: u32, positive: bool }
 // The box of a hit: the centre ray between its parameters.
 fn hit_of(index: u32) -> Hit {
     let it = found[index];
-    let q = camera_point(pixel_ray(index, 0.0), it.y, it.z - it.y);
+    let q = camera_point(pixel_ray(frame.base + index, 0.0), it.y, it.z - it.y);
     let e = vec3<f32>(f_radius(q.x), f_radius(q.y), f_radius(q.z));
     return Hit(vec3<f32>(q.x.c, q.y.c, q.z.c), e, (it.x >> 8u) & 0xffu, (it.x >> 16u) == 1u);
 }
@@ -220,36 +220,56 @@ fn whole(@builtin(global_invocation_id) id: vec3<u32>) {
 // Each item of `work` is a square of the grid of SIDE x SIDE squares of the light; it is divided in SPLIT x SPLIT.
 override SIDE: u32 = 1u;
 override SPLIT: u32 = 8u;
-// What remains unknown of a part beyond this share is looked at again.
-override REST: f32 = 0.01;
+// What may remain unknown of all parts of an item together, as a number of parts; the others are looked at again.
+override ROOM: f32 = 0.25;
 // Pieces longer than so many widths of the part are halved.
 override ASPECT: f32 = 2.0;
+// Unknown shares of the parts that this group looks at, in 2^-20.
+var<workgroup> unknown_sum: atomic<u32>;
+var<workgroup> unknown_parts: atomic<u32>;
 @compute @workgroup_size(64)
-fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
-         @builtin(local_invocation_index) local: u32) {
+fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let parts = SPLIT * SPLIT;
     let n = SIDE * SPLIT;
-    let items = min(atomicLoad(&work.count), arrayLength(&work.items));
-    let unit = ONE / (n * n);
-    for (var number = group.x * 64u + local; number < items * parts; number += groups.x * 64u) {
-        let item = work.items[number / parts];
-        let part = number % parts;
-        let column = (item.y & 0xffffu) * SPLIT + part % SPLIT;
-        let row = (item.y >> 16u) * SPLIT + part / SPLIT;
+    let number = group.x * 64u + local;
+    let busy = number / parts < frame.count;
+    var item = vec4<u32>(0u);
+    if busy { item = work.items[frame.first + number / parts]; }
+    let part = number % parts;
+    let column = (item.y & 0xffffu) * SPLIT + part % SPLIT;
+    let row = (item.y >> 16u) * SPLIT + part / SPLIT;
+    if local == 0u {
+        atomicStore(&unknown_sum, 0u);
+        atomicStore(&unknown_parts, 0u);
+    }
+    workgroupBarrier();
+    var shares = Shares(0.0, 0.0, 0u, 0u);
+    var unknown = 0.0;
+    if busy {
         // 1 / n by its bits, for n is a power of two: quotients need not be exact.
         let h = bitcast<f32>((127u - firstTrailingBit(n)) << 23u);
         let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
-        let shares = look(hit_of(item.x), m, vec2<f32>(h), ASPECT, true, item.z, item.w);
-        let unknown = 1.0 - shares.lit - shares.dark;
-        if unknown > REST {
-            let at = atomicAdd(&more.count, 1u);
-            if at < arrayLength(&more.items) {
-                more.items[at] = vec4<u32>(item.x, row << 16u | column, shares.first, shares.last);
-                continue;
-            }
+        shares = look(hit_of(item.x), m, vec2<f32>(h), ASPECT, true, item.z, item.w);
+        unknown = max(1.0 - shares.lit - shares.dark, 0.0);
+        if unknown > 0.0 {
+            atomicAdd(&unknown_sum, u32(unknown * 1048576.0) + 1u);
+            atomicAdd(&unknown_parts, 1u);
         }
-        // The integer part is rounded down; f32(unit) is exact.
-        atomicAdd(&lit[item.x], select(u32(shares.lit * f32(unit)), unit, shares.lit == 1.0));
-        atomicAdd(&dark[item.x], select(u32(shares.dark * f32(unit)), unit, shares.dark == 1.0));
     }
+    workgroupBarrier();
+    if !busy { return; }
+    // Policy: nothing is looked at again where all that is unknown has room; else half of the room is for parts of which little is unknown.
+    // A group holds all parts of one item, or all of several.
+    let sum = f32(atomicLoad(&unknown_sum)) * (1.0 / 1048576.0);
+    if sum > ROOM && unknown * f32(atomicLoad(&unknown_parts)) > 0.5 * ROOM {
+        let at = atomicAdd(&more.count, 1u);
+        if at < arrayLength(&more.items) {
+            more.items[at] = vec4<u32>(item.x, row << 16u | column, shares.first, shares.last);
+            return;
+        }
+    }
+    // The integer part is rounded down; f32(unit) is exact.
+    let unit = ONE / (n * n);
+    atomicAdd(&lit[item.x], select(u32(shares.lit * f32(unit)), unit, shares.lit == 1.0));
+    atomicAdd(&dark[item.x], select(u32(shares.dark * f32(unit)), unit, shares.dark == 1.0));
 }

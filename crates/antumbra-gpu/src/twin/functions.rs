@@ -181,7 +181,7 @@ impl<const FLUSH: bool> Twin<FLUSH> {
     fn exp(self) -> Self {
         let r = self.radius();
         let top = self.ends(r)[1];
-        if top.0.is_nan() || top.0 > 40.0 {
+        if top.0.is_nan() || top.0 > 20.0 {
             return lost();
         }
         if r.0 > 1.5 {
@@ -326,7 +326,7 @@ impl<const FLUSH: bool> TwinSlope<FLUSH> {
         } else {
             let (a, b) = (self.v.ends(self.v.radius())[1], self.apex().ends(self.p[1])[1]);
             let top = R(a.0.max(b.0));
-            if top.0 <= 40.0 {
+            if top.0 <= 20.0 {
                 let e = exp(top);
                 between(R(0.0), e[0] + e[1])
             } else {

@@ -171,7 +171,7 @@ fn f_sqrt(x: Form) -> Form {
 fn f_exp(x: Form) -> Form {
     let r = f_radius(x);
     let top = f_ends(x, r).y;
-    if !(top <= 40.0) { return f_lost(); }
+    if !(top <= 20.0) { return f_lost(); }
     if r > 1.5 {
         let b = b_exp(top);
         return f_between(0.0, add(b.m, b.r));
@@ -270,7 +270,7 @@ fn s_exp(x: Slope) -> Slope {
         let a = f_ends(x.v, f_radius(x.v)).y;
         let b = f_ends(s_apex(x), x.p.r).y;
         let top = max(a, b);
-        if top <= 40.0 { let e = b_exp(top); mean = f_between(0.0, add(e.m, e.r)); } else { mean = f_lost(); }
+        if top <= 20.0 { let e = b_exp(top); mean = f_between(0.0, add(e.m, e.r)); } else { mean = f_lost(); }
     }
     return Slope(ball_of(f_exp(s_apex(x))), f_exp(x.v), f_mul(x.g, mean));
 }

@@ -18,7 +18,7 @@ fn i_sqrt(x: vec2<f32>) -> vec2<f32> {
     return vec2<f32>(max(low(b_sqrt(max(x.x, 0.0))), 0.0), high(b_sqrt(max(x.y, 0.0))));
 }
 fn i_exp(x: vec2<f32>) -> vec2<f32> {
-    if !(x.y <= 40.0) { return i_lost(); }
+    if !(x.y <= 20.0) { return i_lost(); }
     return vec2<f32>(max(low(b_exp(x.x)), 0.0), high(b_exp(x.y)));
 }
 fn i_ln(x: vec2<f32>) -> vec2<f32> {

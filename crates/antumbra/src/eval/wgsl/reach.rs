@@ -63,9 +63,9 @@ impl Reach {
         Self::new(value, mean * self.slope, self.peak)
     }
 
-    /// Arguments beyond 40 are lost; centre, coefficients and error of the form are at most 8 times the largest value.
+    /// Arguments beyond 20 are lost; centre, coefficients and error of the form are at most 8 times the largest value.
     fn exponential(self) -> Self {
-        let e = 8.0 * Interval::point(self.value.clamp(0.0, 40.0)).exp().hi();
+        let e = 8.0 * Interval::point(self.value.clamp(0.0, 20.0)).exp().hi();
         // Infinite or NaN stays so.
         let e = if self.value.is_finite() { e } else { f64::INFINITY };
         self.through(e, 2.0 * e)
