@@ -43,16 +43,16 @@ pub struct Proved {
     pub lights: Vec<Vec<[f64; 2]>>,
     /// Evaluations for surfaces, and for lights.
     pub evaluations: [u64; 2],
-    /// Seconds of the GPU for surfaces, and per light for the whole of it and for each division; empty without a clock.
+    /// Seconds of the GPU for surfaces, and per light for the whole of it, its first division and each further one; empty without a clock.
     pub seconds: Vec<f64>,
-    /// Items of work: hits of which the light is divided, and parts that are divided again.
-    pub divided: [u64; 2],
+    /// Items of work: hits of which the light is divided, then parts that each further division looks at again.
+    pub divided: [u64; 1 + DIVISIONS],
 }
 
 /// The kernels of one scene, compiled.
 pub struct Kernels {
-    /// Surfaces, whole light, the light in 8 x 8, each open part in 4 x 4.
-    stages: [Stage; 4],
+    /// Surfaces, whole light, its first division, each further one.
+    stages: [Stage; STAGES],
     frame: Frame,
     regions: Vec<Region>,
     lights: Vec<Rect>,
@@ -63,14 +63,22 @@ struct Stage {
     pace: Pace,
 }
 
-/// Divisions of the light, and of each part that stays open.
-const SPLIT: [u32; 2] = [8, 4];
+/// Parts of the light along each side, at first.
+const SIDE: u32 = 8;
+/// How often parts that stay open are divided in 2 x 2.
+const DIVISIONS: usize = 2;
+/// Stages of one light: the whole, the first division, further ones.
+const LIGHT: usize = 2 + DIVISIONS;
+const STAGES: usize = 1 + LIGHT;
 /// Threads of a group.
 const GROUP: u32 = 64;
-/// Parts that a list holds for each pixel of a band; what does not fit is added as it is.
-const PARTS: u64 = 4;
-/// Pixels of a band, at most, if it has more rows than the 8 of a tile: 104 bytes each, with what is read back 128 MiB in all.
-const BAND: u32 = 1 << 20;
+/// Parts that a list holds for each pixel of a band; what does not fit is not looked at again.
+const PARTS: u64 = 2;
+/// Bytes of a part, and of what comes before the first one.
+const PART: u64 = 32;
+const HEAD: u64 = 16;
+/// Pixels of a band, at most, if it has more rows than the 8 of a tile. 176 bytes each, with what is read back less than 100 MiB in all.
+const BAND: u32 = 1 << 19;
 
 /// Whether the GPU can draw these surfaces on a film under lights, without compiling anything.
 ///
@@ -106,18 +114,18 @@ impl Kernels {
         let stage = |text: &str, entry: &str, constants: &[(&str, f64)]| -> Result<Stage, Error> {
             Ok(Stage { pipeline: gpu.pipeline(text, entry, constants)?, pace: Pace::new(begin) })
         };
-        let cells = |side: u32, split: u32, room: f64| {
-            let sizes = [("SIDE", f64::from(side)), ("SPLIT", f64::from(split))];
-            stage(&shadow, "cells", &[sizes[0], sizes[1], ("ROOM", room), ("ASPECT", 2.0)])
-        };
         // Of the tolerance, as a number of parts.
-        let room = tolerance.clamp(1e-4, 0.1) * f64::from(SPLIT[0] * SPLIT[0]);
+        let room = tolerance.clamp(1e-4, 0.1) * f64::from(SIDE * SIDE);
+        let divided = |entry, side: u32, aspect: f64| {
+            stage(&shadow, entry, &[("SIDE", f64::from(side)), ("ROOM", room), ("ASPECT", aspect)])
+        };
         let stages = [
             stage(&primary, "primary", &[])?,
             stage(&shadow, "whole", &[])?,
-            cells(1, SPLIT[0], room)?,
-            // The last division keeps what is unknown as it is.
-            cells(SPLIT[0], SPLIT[1], 1e6)?,
+            divided("cells", SIDE, 2.0)?,
+            divided("refine", 2 * SIDE, 2.0)?,
+            // Shorter pieces pay where nothing is looked at again.
+            divided("refine", 4 * SIDE, 1.0)?,
         ];
         Ok(Self { stages, frame, regions, lights: lights.to_vec() })
     }
@@ -147,11 +155,12 @@ struct Run<'a> {
     progress: &'a mut dyn FnMut(f64),
     frame: Buffer,
     found: Buffer,
-    lit: Buffer,
-    dark: Buffer,
-    lists: [Buffer; 2],
+    sums: Buffer,
+    before: Buffer,
+    hits: Buffer,
+    parts: [Buffer; 2],
     spent: Buffer,
-    binds: [BindGroup; 4],
+    binds: [BindGroup; STAGES],
     proved: Proved,
     clocked: bool,
     /// Pixels times passes that are done.
@@ -170,24 +179,22 @@ impl<'a> Run<'a> {
         let frame = gpu.filled(bytemuck::bytes_of(&kernels.frame), BufferUsages::UNIFORM)?;
         let regions = gpu.filled(bytemuck::cast_slice(&kernels.regions), BufferUsages::UNIFORM)?;
         let found = gpu.storage(16 * pixels)?;
-        let (lit, dark) = (gpu.storage(4 * pixels)?, gpu.storage(4 * pixels)?);
-        // Hits to divide: all at most. Then parts.
-        let parts = 16 + 16 * PARTS * pixels;
-        let lists = [gpu.storage(16 + 16 * pixels)?, gpu.storage(parts)?];
+        let [sums, before] = [gpu.storage(8 * pixels)?, gpu.storage(8 * pixels)?];
+        let hits = gpu.storage(HEAD + 16 * pixels)?;
+        let list = || gpu.storage(HEAD + PART * PARTS * pixels);
+        let parts = [list()?, list()?];
         let spent = gpu.storage(16)?;
-        let [surfaces, whole, first, second] = &kernels.stages;
-        let common = [(0, &frame), (1, &regions), (2, &found), (3, &lit), (4, &dark)];
-        let cells = |stage: &Stage, work, more| {
-            let lists: [(u32, &Buffer); 3] = [(5, work), (6, more), (7, &spent)];
-            gpu.bind(&stage.pipeline, &[&common[..], &lists].concat())
-        };
+        let pipeline = |k: usize| &kernels.stages[k].pipeline;
+        let common = [(0, &frame), (1, &regions), (2, &found), (3, &sums), (7, &spent)];
+        let light = |k: usize, more: &[(u32, &Buffer)]| gpu.bind(pipeline(k), &[&common[..], more].concat());
         let binds = [
-            gpu.bind(&surfaces.pipeline, &common[..3])?,
-            gpu.bind(&whole.pipeline, &[&common[..], &[(6, &lists[0]), (7, &spent)]].concat())?,
-            cells(first, &lists[0], &lists[1])?,
-            cells(second, &lists[1], &lists[0])?,
+            gpu.bind(pipeline(0), &common[..3])?,
+            light(1, &[(5, &hits)])?,
+            light(2, &[(5, &hits), (6, &parts[0])])?,
+            light(3, &[(4, &before), (6, &parts[1]), (8, &parts[0])])?,
+            light(4, &[(4, &before), (6, &parts[0]), (8, &parts[1])])?,
         ];
-        let seconds = vec![0.0; 1 + 3 * kernels.lights.len()];
+        let seconds = vec![0.0; 1 + LIGHT * kernels.lights.len()];
         let proved = Proved { seconds, lights: vec![Vec::new(); kernels.lights.len()], ..Proved::default() };
         let run = Self {
             gpu,
@@ -196,9 +203,10 @@ impl<'a> Run<'a> {
             progress,
             frame,
             found,
-            lit,
-            dark,
-            lists,
+            sums,
+            before,
+            hits,
+            parts,
             spent,
             binds,
             proved,
@@ -244,7 +252,7 @@ impl<'a> Run<'a> {
 
     fn tell(&mut self, more: u64) {
         let whole = self.kernels.frame;
-        let passes = 1 + 3 * self.kernels.lights.len() as u64;
+        let passes = (1 + LIGHT * self.kernels.lights.len()) as u64;
         let all = u64::from(whole.width) * u64::from(whole.height) * passes;
         (self.progress)((self.done + more) as f64 / all as f64);
     }
@@ -263,28 +271,36 @@ impl<'a> Run<'a> {
         let quantum = whole.quantum();
         self.proved.pixels.extend(found.iter().map(|f| pixel(f, quantum)));
         for (k, light) in self.kernels.lights.iter().enumerate() {
-            let [first, second] = &self.lists;
-            self.gpu.clear(&[&self.lit, &self.dark, first, second, &self.spent]);
+            self.gpu.clear(&[&self.sums, &self.hits, &self.parts[0], &self.spent]);
             let frame = base.lit_by(light);
-            let count = Frame { first: 0, count: pixels, ..frame };
-            self.stage(1, 3 * k + 1, count, pixels.div_ceil(GROUP), GROUP, work)?;
-            for division in 0..SPLIT.len() {
-                // Parts that found no place in the list are not in it.
-                let list = &self.lists[division];
-                let items = self.gpu.read_first(list)?.min(((list.size() - 16) / 16) as u32);
-                self.proved.divided[division] += u64::from(items);
-                let each = GROUP / SPLIT[division].pow(2);
-                let count = Frame { first: 0, count: items, ..frame };
-                self.stage(2 + division, 3 * k + 2 + division, count, items.div_ceil(each), each, work)?;
+            let place = 1 + LIGHT * k;
+            let all = Frame { first: 0, count: pixels, ..frame };
+            self.stage(1, place, all, pixels.div_ceil(GROUP), GROUP, work)?;
+            let hits = self.items(&self.hits, 16)?;
+            self.proved.divided[0] += u64::from(hits);
+            self.stage(2, place + 1, Frame { first: 0, count: hits, ..frame }, hits, 1, work)?;
+            for division in 0..DIVISIONS {
+                let list = &self.parts[division % 2];
+                let parts = self.items(list, PART)?;
+                self.proved.divided[1 + division] += u64::from(parts);
+                self.gpu.copy(&self.sums, &self.before);
+                self.gpu.clear(&[&self.parts[(division + 1) % 2]]);
+                let count = Frame { first: 0, count: parts, ..frame };
+                self.stage(3 + division, place + 2 + division, count, parts.div_ceil(GROUP / 4), GROUP / 4, work)?;
             }
             self.proved.evaluations[1] += u64::from(self.gpu.read_first(&self.spent)?);
-            let (lit, dark) = (self.gpu.read::<u32>(&self.lit)?, self.gpu.read::<u32>(&self.dark)?);
+            let sums: Vec<[u32; 2]> = self.gpu.read(&self.sums)?;
             // Sums of integers, exact; what is lit and what is hidden are different parts of the light.
             let share = |n: u32| f64::from(n) / f64::from(1_u32 << 30);
-            let brackets = lit.iter().zip(&dark).map(|(l, d)| [share(*l), 1.0 - share(*d)]);
+            let brackets = sums.iter().map(|[lit, dark]| [share(*lit), 1.0 - share(*dark)]);
             self.proved.lights[k].extend(brackets.take(pixels as usize));
         }
         Ok(())
+    }
+
+    /// How many items of so many bytes a list holds; those that found no place are not in it.
+    fn items(&self, list: &Buffer, bytes: u64) -> Result<u32, Error> {
+        Ok(self.gpu.read_first(list)?.min(((list.size() - HEAD) / bytes) as u32))
     }
 
     fn finish(mut self) -> Proved {

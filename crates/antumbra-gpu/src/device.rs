@@ -147,9 +147,11 @@ impl Gpu {
         let failed = |e: &dyn std::fmt::Display| Error::Failed(e.to_string());
         let info = adapter.get_info();
         let timed = adapter.features() & Features::TIMESTAMP_QUERY;
+        let both = Features::SHADER_F64 | Features::SHADER_INT64;
+        let double = if adapter.features().contains(both) { both } else { Features::empty() };
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("antumbra"),
-            required_features: timed,
+            required_features: timed | double,
             required_limits: wgpu::Limits::default().or_better_values_from(&adapter.limits()),
             ..Default::default()
         };
@@ -187,6 +189,11 @@ impl Gpu {
     #[must_use]
     pub fn is_software(&self) -> bool {
         self.software
+    }
+
+    /// Whether shaders have 64-bit floats, and the whole numbers that a fence for them needs.
+    pub(crate) fn has_double(&self) -> bool {
+        self.device.features().contains(Features::SHADER_F64 | Features::SHADER_INT64)
     }
 
     /// Whatever has gone wrong since the last question.
@@ -282,6 +289,13 @@ impl Gpu {
     pub(crate) fn clear(&self, buffers: &[&Buffer]) {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         buffers.iter().for_each(|buffer| encoder.clear_buffer(buffer, 0, None));
+        self.queue.submit([encoder.finish()]);
+    }
+
+    /// Copies the whole of a buffer into another one.
+    pub(crate) fn copy(&self, from: &Buffer, to: &Buffer) {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
         self.queue.submit([encoder.finish()]);
     }
 

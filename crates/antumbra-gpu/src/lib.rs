@@ -17,6 +17,7 @@ pub mod probe;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod throughput;
 #[cfg(test)]
 mod twin;
 
@@ -25,3 +26,4 @@ pub use certified::{Kernels, Pixel, Proved, check};
 pub use compare::{Comparison, compare};
 pub use device::{Adapter, Error, Gpu, adapters};
 pub use paper::{Found, Paper};
+pub use throughput::{Throughput, throughput};

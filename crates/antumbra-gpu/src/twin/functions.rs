@@ -1,4 +1,5 @@
 //! The arithmetic of `functions.wgsl`, operation by operation.
+#![allow(clippy::approx_constant, clippy::excessive_precision, reason = "the literals of the kernels")]
 use super::slope::{TwinSlope, b_mul};
 use super::{R, Twin, U, reciprocal};
 use std::cell::Cell;

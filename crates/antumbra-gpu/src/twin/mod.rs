@@ -214,7 +214,7 @@ trait Arithmetic: Copy {
             Unary::Cos => self.named(Function::Cos),
             Unary::Sinh => self.named(Function::Sinh),
             Unary::Cosh => self.named(Function::Cosh),
-            _ => unimplemented!("the kernels do not have {op:?}"),
+            _ => panic!("the kernels do not have {op:?}"),
         }
     }
 
@@ -259,7 +259,7 @@ trait Arithmetic: Copy {
             (Binary::Div, ..) => self.div(o),
             (Binary::Max, ..) => self.max(o),
             (Binary::Min, ..) => self.neg().max(o.neg()).neg(),
-            _ => unimplemented!("the kernels do not have {op:?}"),
+            _ => panic!("the kernels do not have {op:?}"),
         }
     }
 
