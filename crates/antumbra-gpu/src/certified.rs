@@ -77,8 +77,8 @@ const PARTS: u64 = 2;
 /// Bytes of a part, and of what comes before the first one.
 const PART: u64 = 32;
 const HEAD: u64 = 16;
-/// Pixels of a band, at most, if it has more rows than the 8 of a tile. 176 bytes each, with what is read back less than 100 MiB in all.
-const BAND: u32 = 1 << 19;
+/// Pixels of a band, at most, if it has more rows than the 8 of a tile. 176 bytes each, with what is read back 192 MiB in all.
+const BAND: u32 = 1 << 20;
 
 /// Whether the GPU can draw these surfaces on a film under lights, without compiling anything.
 ///

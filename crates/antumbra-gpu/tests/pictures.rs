@@ -68,6 +68,8 @@ fn presets_are_proved_without_contradictions() {
     for (name, pixels, brackets) in DRAWN {
         holds(&gpu, name, SIDE, pixels, brackets);
     }
+    // Large enough to meet shares that a careless sum of divisions would count twice.
+    holds(&gpu, "kusner", 256, 95, 88);
 }
 
 /// No contradiction in a picture of that side, and at least that many percent of the pixels and of the brackets settled.

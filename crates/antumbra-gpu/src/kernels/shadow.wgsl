@@ -9,7 +9,7 @@
 // Hits whose light is divided: pixel, and where their beam is open: outside of that stretch of parameters it is proved free.
 struct Hits { count: atomic<u32>, items: array<vec4<u32>> }
 @group(0) @binding(5) var<storage, read_write> hits: Hits;
-// Parts of the light that are looked at again: pixel, row << 16 | column, the stretch, and which shares have been added for it, in the units of `sums`.
+// Parts of the light that are looked at again: pixel, row << 16 | column, the stretch, and the shares above which it may add, in the units of `sums`.
 struct Part { index: u32, place: u32, first: u32, last: u32, lit: u32, dark: u32, pad0: u32, pad1: u32 }
 struct Parts { count: atomic<u32>, pad0: u32, pad1: u32, pad2: u32, items: array<Part> }
 @group(0) @binding(6) var<storage, read_write> more: Parts;
@@ -285,8 +285,11 @@ fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_inde
 // What a quarter of the part of the four threads before and behind shares.
 var<workgroup> quarters: array<vec2<u32>, 64>;
 
-// Four threads for each part on the list, as long as the hit's bracket is wider than the tolerance. Of two lower bounds of a share the larger one holds: what the
-// quarters prove beyond what has been added is added. SIDE is that of the quarters.
+// Four threads for each part on the list, as long as the hit's bracket is wider than the tolerance. SIDE is that of the quarters.
+//
+// A part has a floor b: whoever proves a share v > b of it may add v - b. Its quarters prove S = s_1 + ... + s_4: added is max(S, b) - b, and the quarters get the floors
+// s_q + d, d = max(S, b) - S. That is right: if some quarters later prove v_q > s_q + d, then max(S, b) - b and all the v_q - s_q - d are together at most
+// V - b, where V = S + sum of these v_q - s_q is proved of the part.
 @compute @workgroup_size(64)
 fn refine(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let number = (group.x * 64u + local) / 4u;
@@ -298,18 +301,27 @@ fn refine(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_ind
         wide = f32(ONE - known) > ROOM * f32(ONE / 64u);
     }
     quarters[local] = vec2<u32>(0u);
+    let column = 2u * (item.place & 0xffffu) + (local & 1u);
+    let row = 2u * (item.place >> 16u) + (local >> 1u & 1u);
+    var seen = Seen(Shares(0.0, 0.0, 0u, 0u), 0u, 0u, 0.0);
     if wide {
-        let column = 2u * (item.place & 0xffffu) + (local & 1u);
-        let row = 2u * (item.place >> 16u) + (local >> 1u & 1u);
-        let seen = part_of(hit_of(item.index), column, row, item.first, item.last);
+        seen = part_of(hit_of(item.index), column, row, item.first, item.last);
         quarters[local] = vec2<u32>(seen.lit, seen.dark);
-        // A part of 32 x 32 has a quarter of the tolerance of 1/255.
-        if seen.unknown > 0.03 { again(item.index, column, row, seen); }
     }
     workgroupBarrier();
-    if local % 4u == 0u && wide {
-        let sum = quarters[local] + quarters[local + 1u] + quarters[local + 2u] + quarters[local + 3u];
-        atomicAdd(&sums[2u * item.index], max(sum.x, item.lit) - item.lit);
-        atomicAdd(&sums[2u * item.index + 1u], max(sum.y, item.dark) - item.dark);
+    if !wide { return; }
+    let first = local & ~3u;
+    let sum = quarters[first] + quarters[first + 1u] + quarters[first + 2u] + quarters[first + 3u];
+    let floors = vec2<u32>(item.lit, item.dark);
+    let best = max(sum, floors);
+    if local == first {
+        atomicAdd(&sums[2u * item.index], best.x - floors.x);
+        atomicAdd(&sums[2u * item.index + 1u], best.y - floors.y);
+    }
+    // A part of 32 x 32 has a quarter of the tolerance of 1/255.
+    if seen.unknown > 0.03 {
+        seen.lit += best.x - sum.x;
+        seen.dark += best.y - sum.y;
+        again(item.index, column, row, seen);
     }
 }
