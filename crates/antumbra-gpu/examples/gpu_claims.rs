@@ -30,7 +30,9 @@ fn main() -> ExitCode {
         "| scene | side | pixels settled % | hits | brackets settled % | contradictions | seconds: GPU, processor |"
     );
     println!("|---|---|---|---|---|---|---|");
-    let scenes = PRESETS.iter().map(|p| (p.name, presets)).chain(GALLERY.iter().map(|e| (e.name, gallery)));
+    let preset = |name: &str| presets > 0 && PRESETS.iter().any(|p| p.name == name);
+    let others = GALLERY.iter().map(|e| (e.name, gallery)).filter(|(name, _)| !preset(name));
+    let scenes = PRESETS.iter().map(|p| (p.name, presets)).chain(others);
     let (mut sum, mut drawn, mut refused) = (Comparison::default(), 0, 0);
     for (name, side) in scenes.filter(|(name, side)| *side > 0 && wanted(name)) {
         match claims(&gpu, name, side) {

@@ -6,6 +6,7 @@ use antumbra::render::{Frame, Method, RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{GALLERY, PRESETS, Scene, named};
 use antumbra::trace::Surface;
 use antumbra_gpu::{Error, Gpu, Kernels, Paper, Pixel, assist, check, compare};
+use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Duration;
@@ -90,7 +91,8 @@ fn holds(gpu: &Gpu, name: &str, side: usize, pixels: usize, brackets: usize) {
 #[test]
 fn the_gallery_is_drawn_or_refused_with_a_reason() {
     let (mut drawn, mut refused) = (0, Vec::new());
-    for name in PRESETS.iter().map(|p| p.name).chain(GALLERY.iter().map(|e| e.name)) {
+    let names: BTreeSet<&str> = PRESETS.iter().map(|p| p.name).chain(GALLERY.iter().map(|e| e.name)).collect();
+    for name in names {
         let scene = scene(name);
         let lights: Vec<Rect> = scene.lights.iter().map(|l| l.rect).collect();
         match check(&surfaces(&scene), &film(&scene, SIDE), &lights) {
