@@ -115,6 +115,11 @@ fn between<const FLUSH: bool>(a: R<FLUSH>, b: R<FLUSH>) -> Twin<FLUSH> {
     Twin::new(R(0.5) * (a + b), R(SLACK) * e + R::FLOOR, [R(0.0); 3])
 }
 
+fn exp_between<const FLUSH: bool>(a: R<FLUSH>, b: R<FLUSH>) -> Twin<FLUSH> {
+    let (lo, hi) = (exp(a), exp(b));
+    between(R((lo[0] - lo[1]).0.max(0.0)), hi[0] + hi[1])
+}
+
 fn unknown<const FLUSH: bool>() -> Twin<FLUSH> {
     Twin::new(R(0.0), R(1.0), [R(0.0); 3])
 }
@@ -181,13 +186,12 @@ impl<const FLUSH: bool> Twin<FLUSH> {
 
     fn exp(self) -> Self {
         let r = self.radius();
-        let top = self.ends(r)[1];
-        if top.0.is_nan() || top.0 > 20.0 {
+        let ends = self.ends(r);
+        if ends[1].0.is_nan() || ends[1].0 > 20.0 {
             return lost();
         }
         if r.0 > 1.5 {
-            let b = exp(top);
-            return between(R(0.0), b[0] + b[1]);
+            return exp_between(ends[0], ends[1]);
         }
         let b = exp(self.c);
         let q = r * r;
@@ -325,14 +329,9 @@ impl<const FLUSH: bool> TwinSlope<FLUSH> {
             let w = R(0.022) * (d * d);
             self.middle().exp().mulk((R(1.0) + w).0, (w + R(2.0 * U)).0)
         } else {
-            let (a, b) = (self.v.ends(self.v.radius())[1], self.apex().ends(self.p[1])[1]);
-            let top = R(a.0.max(b.0));
-            if top.0 <= 20.0 {
-                let e = exp(top);
-                between(R(0.0), e[0] + e[1])
-            } else {
-                lost()
-            }
+            let (v, p) = (self.v.ends(self.v.radius()), self.apex().ends(self.p[1]));
+            let (lo, hi) = (R(v[0].0.min(p[0].0)), R(v[1].0.max(p[1].0)));
+            if hi.0 <= 20.0 { exp_between(lo, hi) } else { lost() }
         };
         self.with(Twin::exp, mean)
     }

@@ -167,15 +167,18 @@ fn f_sqrt(x: Form) -> Form {
     return f_line(x, r, sub(s.m, h), k, add(add(h, s.r), mul(off, r)));
 }
 
+// Anything between e^a and e^b.
+fn f_exp_between(a: f32, b: f32) -> Form {
+    let lo = b_exp(a);
+    let hi = b_exp(b);
+    return f_between(max(sub(lo.m, lo.r), 0.0), add(hi.m, hi.r));
+}
 // R = e^c (e^t - 1 - t), |t| <= r <= 3/2, in [0, e^c r^2/2 (1 + r/3 + r^2/8)]: 1/12 + r/60 + ... <= 1/8.
 fn f_exp(x: Form) -> Form {
     let r = f_radius(x);
-    let top = f_ends(x, r).y;
-    if !(top <= 20.0) { return f_lost(); }
-    if r > 1.5 {
-        let b = b_exp(top);
-        return f_between(0.0, add(b.m, b.r));
-    }
+    let ends = f_ends(x, r);
+    if !(ends.y <= 20.0) { return f_lost(); }
+    if r > 1.5 { return f_exp_between(ends.x, ends.y); }
     let b = b_exp(x.c);
     let q = mul(r, r);
     let g = mul(q, add(1.0, add(mul(0.33333334, r), mul(0.125, q))));
@@ -259,7 +262,7 @@ fn s_sqrt(x: Slope) -> Slope {
     return Slope(p, v, f_mul(x.g, f_recip(f_addk(v, p.m, p.r))));
 }
 // The mean of h' from p to v, m their middle and D at least |v - p|: for e^x, e^m sinh(D/2)/(D/2), the quotient in [1, 1 + 1.05 D^2/24] for D <= 3/2;
-// else it is between 0 and e to the larger one.
+// else it is between e to the smaller and e to the larger one.
 fn s_exp(x: Slope) -> Slope {
     let d = s_step(x);
     var mean: Form;
@@ -267,10 +270,9 @@ fn s_exp(x: Slope) -> Slope {
         let w = mul(0.022, mul(d, d));
         mean = f_mulk(f_exp(s_middle(x)), add(1.0, w), add(w, 2.0 * U));
     } else {
-        let a = f_ends(x.v, f_radius(x.v)).y;
-        let b = f_ends(s_apex(x), x.p.r).y;
-        let top = max(a, b);
-        if top <= 20.0 { let e = b_exp(top); mean = f_between(0.0, add(e.m, e.r)); } else { mean = f_lost(); }
+        let v = f_ends(x.v, f_radius(x.v));
+        let p = f_ends(s_apex(x), x.p.r);
+        if max(v.y, p.y) <= 20.0 { mean = f_exp_between(min(v.x, p.x), max(v.y, p.y)); } else { mean = f_lost(); }
     }
     return Slope(ball_of(f_exp(s_apex(x))), f_exp(x.v), f_mul(x.g, mean));
 }
