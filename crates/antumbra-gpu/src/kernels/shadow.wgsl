@@ -318,8 +318,8 @@ fn refine(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_ind
         atomicAdd(&sums[2u * item.index], best.x - floors.x);
         atomicAdd(&sums[2u * item.index + 1u], best.y - floors.y);
     }
-    // A part of 32 x 32 has a quarter of the tolerance of 1/255.
-    if seen.unknown > 0.03 {
+    // Policy: a part of 32 x 32 has a quarter of the tolerance of 1/255; where nothing at all was proved of any quarter, smaller ones will not help.
+    if seen.unknown > 0.03 && sum.x + sum.y > 0u {
         seen.lit += best.x - sum.x;
         seen.dark += best.y - sum.y;
         again(item.index, column, row, seen);
