@@ -222,8 +222,10 @@ pub(crate) fn functions(
     if !reach.iter().all(|m| *m < f64::from(FAR) / 4.0) {
         return Err(Error::Scene("coordinates as large as these are not for 32-bit numbers"));
     }
-    let mut text = format!("const SURFACES = {}u;\n", surfaces.len());
-    if surfaces.iter().filter_map(|s| s.function.as_tape()).any(wgsl::needs_functions) {
+    let beyond = surfaces.iter().filter_map(|s| s.function.as_tape()).any(wgsl::needs_functions);
+    // Whether there is more than `+ - *`, abs, min and max.
+    let mut text = format!("const SURFACES = {}u;\nconst FUNCTIONS = {beyond};\n", surfaces.len());
+    if beyond {
         text.push_str(wgsl::FUNCTIONS);
         if kinds.contains(&Kind::Interval) {
             text.push_str(wgsl::INTERVAL_FUNCTIONS);

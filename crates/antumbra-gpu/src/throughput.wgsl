@@ -3,7 +3,8 @@
 @group(0) @binding(0) var<uniform> zero: vec4<u32>;
 @group(0) @binding(1) var<storage, read_write> out: array<u32>;
 
-fn runtime_zero() -> u32 { return zero.x; }
+override ROUNDS: u32 = 64u;
+
 fn bare(x: FLOAT) -> FLOAT { return x; }
 fn fenced(x: FLOAT) -> FLOAT { return bitcast<FLOAT>(bitcast<BITS>(x) ^ BITS(zero.x)); }
 
@@ -15,7 +16,7 @@ fn chains(@builtin(global_invocation_id) id: vec3<u32>) {
     var b = s + FLOAT(0.25);
     var c = s + FLOAT(0.5);
     var d = s + FLOAT(1.0);
-    for (var i = 0u; i < 64u; i++) {
+    for (var i = 0u; i < ROUNDS; i++) {
         a = FENCE(FENCE(a * k) + s);
         b = FENCE(FENCE(b * k) + s);
         c = FENCE(FENCE(c * k) + s);

@@ -135,7 +135,17 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
             if !settled {
                 evaluations++;
                 var f: Form;
-                if own && f32(pos) <= SLOPE * f32(pos + len) { f = beam_slope(hit, ray, p); } else { f = field(k, p); }
+                if own && f32(pos) <= SLOPE * f32(pos + len) {
+                    f = beam_slope(hit, ray, p);
+                    // Slopes of functions are good near the hit only; farther away the value may have a sign.
+                    if FUNCTIONS && pos > 0u && f_sign(f) == 0 {
+                        evaluations++;
+                        let g = field(k, p);
+                        if f_sign(g) != 0 { f = g; }
+                    }
+                } else {
+                    f = field(k, p);
+                }
                 if front < 0 { f = f_neg(f); }
                 let s = f_sign(f);
                 // Lower plane at the parameter where it is lowest, and its upper bound there.
