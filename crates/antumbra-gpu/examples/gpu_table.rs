@@ -1,11 +1,13 @@
 //! What a GPU takes for the four scenes of the paper: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats [WxH... [side of the paper's pictures, 0 for none]]]`.
 //! With `--despite` it goes on where the probe fails, for diagnosis. Prints what the probe says, contradictions against the CPU, and milliseconds by the clock of the GPU, medians.
+use antumbra::eval::wgsl;
 use antumbra::geom::{Film, Rect};
 use antumbra::paper;
 use antumbra::render::{Method, RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{Scene, named};
 use antumbra::trace::Surface;
-use antumbra_gpu::{Found, Gpu, Kernels, Paper, Pixel, Proved, adapters, compare, probe};
+use antumbra_gpu::{Found, Gpu, Kernels, Paper, Pixel, Proved, adapters, compare, probe, throughput};
+use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::{Duration, Instant};
@@ -54,6 +56,7 @@ fn main() {
             return;
         }
     };
+    rates(&gpu);
     println!("\n| scene, {COMPARED} x {COMPARED} | empty | hits | left to the CPU | lights settled | contradictions |");
     println!("|---|---|---|---|---|---|");
     for name in SCENES {
@@ -90,6 +93,49 @@ fn main() {
     }
 }
 
+/// What the adapter can do, and what an evaluation of each scene's first surface asks of it.
+fn rates(gpu: &Gpu) {
+    match throughput(gpu) {
+        Ok(t) => {
+            let giga = |rate: f64| format!("{:.1}", 1e-9 * rate);
+            println!(
+                "\nBillions of products and sums per second: 32 bits {}, fenced {}; 64 bits, fenced {}",
+                giga(t.bare),
+                giga(t.fenced),
+                t.double.map_or("none".to_owned(), giga)
+            );
+        }
+        Err(error) => println!("\nno throughput: {error}"),
+    }
+    println!("\n| scene | operations of a form | of a slope |\n|---|---|---|");
+    for name in SCENES {
+        let [form, slope] = operations(&scene(name));
+        println!("| {name} | {form} | {slope} |");
+    }
+}
+
+/// Products and sums of the formula as a form and as a slope, counted from the kernel's text; all branches count.
+fn operations(scene: &Scene) -> [u64; 2] {
+    let Some(tape) = scene.objects[0].surface.as_tape() else { return [0; 2] };
+    [wgsl::Kind::Form, wgsl::Kind::Slope].map(|kind| {
+        let text = wgsl::function(tape, "value", kind).unwrap_or_default();
+        let text = format!("{}{}{text}", wgsl::FORMS, wgsl::FUNCTIONS);
+        let one = ["add", "sub", "mul"].map(|name| (name, 1));
+        let three = ["add3", "sub3", "mul3"].map(|name| (name, 3));
+        let mut known: HashMap<&str, u64> = one.into_iter().chain(three).collect();
+        // Functions are written before they are called.
+        for function in text.split("\nfn ").skip(1) {
+            let (name, body) = function.split_once('(').unwrap_or((function, ""));
+            let identifier = |c: char| c.is_ascii_alphanumeric() || c == '_';
+            let calls =
+                body.match_indices('(').map(|(at, _)| body[..at].rsplit(|c| !identifier(c)).next().unwrap_or(""));
+            let count = calls.filter_map(|call| known.get(call)).sum();
+            known.entry(name).or_insert(count);
+        }
+        known.get("value").copied().unwrap_or(0)
+    })
+}
+
 fn paper_counts(gpu: &Gpu) {
     println!(
         "\n| the paper, {COMPARED} x {COMPARED}: GPU / CPU | hits | initial beams occluded | pixels in shadow | evaluations: pixels | initial | sub-beams |"
@@ -106,9 +152,9 @@ fn paper_counts(gpu: &Gpu) {
 
 fn table(gpu: &Gpu, sizes: &[(usize, usize)], repeats: usize) {
     println!(
-        "| scene | size | surfaces | whole light | 8 x 8 | 4 x 4 | sum | wall, with reading back | pixels open % | brackets wider than 1/255 % of hits | divided hits, parts | evaluations: surfaces, light |"
+        "| scene | size | surfaces | whole light | 8 x 8 | 16 x 16 | 32 x 32 | sum | wall, with reading back | pixels open % | brackets wider than 1/255 % of hits | divided hits, parts | evaluations: surfaces, light |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|---|");
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
     for &size in sizes {
         for name in SCENES {
             let scene = scene(name);
@@ -228,15 +274,18 @@ fn draw(
     let begin = Instant::now();
     let kernels = Kernels::new(gpu, &surfaces, &film, &lights, TOLERANCE)?;
     if repeats > 1 {
-        eprintln!("{}: compiled in {:.2} s", scene.name, begin.elapsed().as_secs_f64());
+        let compiled = begin.elapsed().as_secs_f64();
+        let begin = Instant::now();
+        Kernels::new(gpu, &surfaces, &film, &lights, TOLERANCE)?;
+        println!("{}: compiled in {compiled:.3} s, again in {:.4} s", scene.name, begin.elapsed().as_secs_f64());
     }
     let stop = AtomicBool::new(false);
     let mut times: Vec<Vec<f64>> = Vec::new();
     let mut walls = Vec::new();
-    let mut proved = kernels.prove(gpu, &stop)?;
+    let mut proved = kernels.prove(gpu, &stop, &mut |_| ())?;
     for _ in 1..repeats {
         let begin = Instant::now();
-        proved = kernels.prove(gpu, &stop)?;
+        proved = kernels.prove(gpu, &stop, &mut |_| ())?;
         walls.push(begin.elapsed().as_secs_f64());
         times.push(proved.seconds.clone());
     }
@@ -252,21 +301,20 @@ fn median(mut values: Vec<f64>) -> f64 {
 
 fn row(name: &str, (width, height): (usize, usize), proved: &Proved, times: &[f64], wall: f64) {
     let ms = |s: f64| format!("{:.3}", 1e3 * s);
-    let each: Vec<String> = (0..4).map(|k| times.get(k).map_or("-".to_owned(), |s| ms(*s))).collect();
+    let each: Vec<String> = (0..5).map(|k| times.get(k).map_or("-".to_owned(), |s| ms(*s))).collect();
     let open = proved.pixels.iter().filter(|p| matches!(p, Pixel::Open { .. })).count();
     let hit = |p: &&(usize, &Pixel)| matches!(p.1, Pixel::Hit { .. });
     let hits: Vec<usize> = proved.pixels.iter().enumerate().filter(|p| hit(&p)).map(|p| p.0).collect();
     let wide = |k: &&usize| proved.lights[0][**k][1] - proved.lights[0][**k][0] > TOLERANCE;
     let percent = |n: usize, of: usize| format!("{:.2}", 100.0 * n as f64 / of.max(1) as f64);
     println!(
-        "| {name} | {width}x{height} | {} | {} | {} | {} | {} | {}, {} | {:.1}, {:.1} |",
+        "| {name} | {width}x{height} | {} | {} | {} | {} | {} | {} | {:.1}, {:.1} |",
         each.join(" | "),
         ms(times.iter().sum()),
         ms(wall),
         percent(open, proved.pixels.len()),
         percent(hits.iter().filter(wide).count(), hits.len()),
-        proved.divided[0],
-        proved.divided[1],
+        proved.divided.map(|n| n.to_string()).join(", "),
         proved.evaluations[0] as f64 * 1e-6,
         proved.evaluations[1] as f64 * 1e-6,
     );

@@ -23,13 +23,13 @@ pub struct Share {
 ///
 /// # Errors
 /// Why the GPU did nothing; the renderer is as it was and does all of it. [`Error::Stopped`] if its stop flag was set.
-pub fn assist(gpu: &Gpu, renderer: &mut Renderer) -> Result<Share, Error> {
+pub fn assist(gpu: &Gpu, renderer: &mut Renderer, progress: &mut dyn FnMut(f64)) -> Result<Share, Error> {
     let begin = Instant::now();
     let stop = renderer.stop_flag();
     let question = renderer.question();
     let kernels = Kernels::new(gpu, &question.surfaces, &question.film, &question.lights, question.tolerance)?;
     let compiled = begin.elapsed().as_secs_f64();
-    let proved = kernels.prove(gpu, &stop)?;
+    let proved = kernels.prove(gpu, &stop, progress)?;
     let proofs = |pixel: &Pixel| match *pixel {
         Pixel::Empty => Some(GivenPixel::Empty),
         Pixel::Hit { surface, t, before } => Some(GivenPixel::Hit { surface, t, before }),

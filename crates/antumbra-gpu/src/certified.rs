@@ -1,11 +1,16 @@
 //! The certified method on the GPU: surfaces, then each light; what 32 bits cannot prove stays open.
+//!
+//! A picture is drawn in bands of rows, so that memory is bounded whatever its size; a band in dispatches whose size follows the time
+//! that they take.
 use crate::device::{Error, Gpu, Pass};
+use crate::pace::Pace;
 use crate::scene::{self, Frame, Region};
 use antumbra::eval::wgsl::{FORMS, Kind};
 use antumbra::geom::{Film, Rect};
 use antumbra::trace::{Sign, Surface};
 use antumbra_interval::Interval;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::time::Instant;
 use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline};
 
 /// What is proved of a pixel.
@@ -38,34 +43,60 @@ pub struct Proved {
     pub lights: Vec<Vec<[f64; 2]>>,
     /// Evaluations for surfaces, and for lights.
     pub evaluations: [u64; 2],
-    /// Seconds of the GPU for surfaces, and per light for the whole of it and for each division; empty without a clock.
+    /// Seconds of the GPU for surfaces, and per light for the whole of it, its first division and each further one; empty without a clock.
     pub seconds: Vec<f64>,
-    /// Items of work: hits of which the light is divided, and parts that are divided again.
-    pub divided: [u64; 2],
+    /// Items of work: hits of which the light is divided, then parts that each further division looks at again.
+    pub divided: [u64; 1 + DIVISIONS],
 }
 
 /// The kernels of one scene, compiled.
 pub struct Kernels {
-    primary: ComputePipeline,
-    whole: ComputePipeline,
-    /// The light in 8 x 8, then each open part in 4 x 4.
-    cells: [ComputePipeline; 2],
+    /// Surfaces, whole light, its first division, each further one.
+    stages: [Stage; STAGES],
     frame: Frame,
     regions: Vec<Region>,
     lights: Vec<Rect>,
 }
 
-/// Divisions of the light, and of each part that stays open.
-const SPLIT: [u32; 2] = [8, 4];
-/// Parts that a list holds for each pixel of the picture; what does not fit is added as it is.
-const PARTS: u64 = 4;
-/// Groups of a pass over a list: enough to fill any GPU, they go on until the list is done.
-const GROUPS: u32 = 8192;
-/// Pixels of one dispatch: more would keep a slow GPU too long for its watchdog.
-const PIXELS: u32 = 1 << 20;
+struct Stage {
+    pipeline: ComputePipeline,
+    pace: Pace,
+}
+
+/// Parts of the light along each side, at first.
+const SIDE: u32 = 8;
+/// How often parts that stay open are divided in 2 x 2.
+const DIVISIONS: usize = 2;
+/// Stages of one light: the whole, the first division, further ones.
+const LIGHT: usize = 2 + DIVISIONS;
+const STAGES: usize = 1 + LIGHT;
+/// Threads of a group.
+const GROUP: u32 = 64;
+/// Parts that a list holds for each pixel of a band; what does not fit is not looked at again.
+const PARTS: u64 = 2;
+/// Bytes of a part, and of what comes before the first one.
+const PART: u64 = 32;
+const HEAD: u64 = 16;
+/// Pixels of a band, at most, if it has more rows than the 8 of a tile. 176 bytes each, with what is read back 192 MiB in all.
+const BAND: u32 = 1 << 20;
+
+/// Whether the GPU can draw these surfaces on a film under lights, without compiling anything.
+///
+/// # Errors
+/// Why the scene stays on the CPU.
+pub fn check(surfaces: &[Surface<'_>], film: &Film, lights: &[Rect]) -> Result<(), Error> {
+    text(surfaces, film, lights).map(|_| ())
+}
+
+/// The numbers of the picture, and the text that all kernels begin with.
+fn text(surfaces: &[Surface<'_>], film: &Film, lights: &[Rect]) -> Result<(Frame, Vec<Region>, String), Error> {
+    let (frame, regions) = scene::frame(surfaces, film)?;
+    let functions = scene::functions(surfaces, &[Kind::Form, Kind::Slope], &frame, film, lights)?;
+    Ok((frame, regions, format!("{FORMS}\n{}\n{functions}", include_str!("kernels/frame.wgsl"))))
+}
 
 impl Kernels {
-    /// Compiles the kernels for surfaces on a film under lights.
+    /// Compiles the kernels for surfaces on a film under lights, or takes them from those that the GPU has compiled before.
     ///
     /// # Errors
     /// Why the scene stays on the CPU.
@@ -76,149 +107,222 @@ impl Kernels {
         lights: &[Rect],
         tolerance: f64,
     ) -> Result<Self, Error> {
-        let (frame, regions) = scene::frame(surfaces, film)?;
-        let functions = scene::functions(surfaces, &[Kind::Form, Kind::Slope], &frame, film, lights)?;
-        let common = format!("{FORMS}\n{}\n{functions}", include_str!("kernels/frame.wgsl"));
-        let primary = gpu.module(&format!("{common}\n{}", include_str!("kernels/primary.wgsl")))?;
-        let shadow = gpu.module(&format!("{common}\n{}", include_str!("kernels/shadow.wgsl")))?;
-        let rest = tolerance.clamp(1e-4, 0.1);
-        let cells = |side: u32, split: u32, rest: f64, aspect: f64| {
-            gpu.pipeline(
-                &shadow,
-                "cells",
-                &[("SIDE", f64::from(side)), ("SPLIT", f64::from(split)), ("REST", rest), ("ASPECT", aspect)],
-            )
+        let (frame, regions, common) = text(surfaces, film, lights)?;
+        let primary = format!("{common}\n{}", include_str!("kernels/primary.wgsl"));
+        let shadow = format!("{common}\n{}", include_str!("kernels/shadow.wgsl"));
+        let begin = if gpu.is_software() { 64 } else { 4096 };
+        let stage = |text: &str, entry: &str, constants: &[(&str, f64)]| -> Result<Stage, Error> {
+            Ok(Stage { pipeline: gpu.pipeline(text, entry, constants)?, pace: Pace::new(begin) })
         };
-        Ok(Self {
-            primary: gpu.pipeline(&primary, "primary", &[])?,
-            whole: gpu.pipeline(&shadow, "whole", &[])?,
-            // The last division keeps what is unknown as it is.
-            cells: [cells(1, SPLIT[0], rest, 2.0)?, cells(SPLIT[0], SPLIT[1], 2.0, 2.0)?],
-            frame,
-            regions,
-            lights: lights.to_vec(),
-        })
+        // Of the tolerance, as a number of parts.
+        let room = tolerance.clamp(1e-4, 0.1) * f64::from(SIDE * SIDE);
+        let divided = |entry, side: u32, aspect: f64| {
+            stage(&shadow, entry, &[("SIDE", f64::from(side)), ("ROOM", room), ("ASPECT", aspect)])
+        };
+        let stages = [
+            stage(&primary, "primary", &[])?,
+            stage(&shadow, "whole", &[])?,
+            divided("cells", SIDE, 2.0)?,
+            divided("refine", 2 * SIDE, 2.0)?,
+            // Shorter pieces pay where nothing is looked at again.
+            divided("refine", 4 * SIDE, 1.0)?,
+        ];
+        Ok(Self { stages, frame, regions, lights: lights.to_vec() })
     }
 
-    /// Proves what it can. `stop` is looked at between dispatches.
+    /// Proves what it can. `stop` is looked at between dispatches; `progress` hears after each of them which part of the work is done, in
+    /// `[0, 1]`.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn prove(&self, gpu: &Gpu, stop: &AtomicBool) -> Result<Proved, Error> {
-        Run::new(gpu, self)?.all(stop)
+    pub fn prove(&self, gpu: &Gpu, stop: &AtomicBool, progress: &mut dyn FnMut(f64)) -> Result<Proved, Error> {
+        let [width, height] = [self.frame.width, self.frame.height];
+        // Whole tiles of 8 x 8 pixels.
+        let rows = (BAND / width / 8 * 8).max(8).min(height);
+        let mut run = Run::new(gpu, self, rows * width, stop, progress)?;
+        for first in (0..height).step_by(rows as usize) {
+            run.band(first, rows.min(height - first))?;
+        }
+        Ok(run.finish())
     }
 }
 
-/// The buffers of one picture.
+/// The buffers of a band, and what is proved so far.
 struct Run<'a> {
     gpu: &'a Gpu,
     kernels: &'a Kernels,
-    count: u32,
+    stop: &'a AtomicBool,
+    progress: &'a mut dyn FnMut(f64),
     frame: Buffer,
     found: Buffer,
-    lit: Buffer,
-    dark: Buffer,
-    lists: [Buffer; 2],
+    sums: Buffer,
+    before: Buffer,
+    hits: Buffer,
+    parts: [Buffer; 2],
     spent: Buffer,
-    primary: BindGroup,
-    whole: BindGroup,
-    cells: [BindGroup; 2],
+    binds: [BindGroup; STAGES],
+    proved: Proved,
+    clocked: bool,
+    /// Pixels times passes that are done.
+    done: u64,
 }
 
 impl<'a> Run<'a> {
-    fn new(gpu: &'a Gpu, kernels: &'a Kernels) -> Result<Self, Error> {
-        let count = kernels.frame.width * kernels.frame.height;
-        let pixels = u64::from(count);
+    fn new(
+        gpu: &'a Gpu,
+        kernels: &'a Kernels,
+        pixels: u32,
+        stop: &'a AtomicBool,
+        progress: &'a mut dyn FnMut(f64),
+    ) -> Result<Self, Error> {
+        let pixels = u64::from(pixels);
         let frame = gpu.filled(bytemuck::bytes_of(&kernels.frame), BufferUsages::UNIFORM)?;
         let regions = gpu.filled(bytemuck::cast_slice(&kernels.regions), BufferUsages::UNIFORM)?;
         let found = gpu.storage(16 * pixels)?;
-        let (lit, dark) = (gpu.storage(4 * pixels)?, gpu.storage(4 * pixels)?);
-        // Hits to divide: all at most. Then parts.
-        let parts = 16 + 16 * PARTS * pixels;
-        let lists = [gpu.storage(16 + 16 * pixels)?, gpu.storage(parts)?];
+        let [sums, before] = [gpu.storage(8 * pixels)?, gpu.storage(8 * pixels)?];
+        let hits = gpu.storage(HEAD + 16 * pixels)?;
+        let list = || gpu.storage(HEAD + PART * PARTS * pixels);
+        let parts = [list()?, list()?];
         let spent = gpu.storage(16)?;
-        let primary = gpu.bind(&kernels.primary, &[(0, &frame), (1, &regions), (2, &found)])?;
-        let whole = gpu.bind(
-            &kernels.whole,
-            &[(0, &frame), (1, &regions), (2, &found), (3, &lit), (4, &dark), (6, &lists[0]), (7, &spent)],
-        )?;
-        let cells = |k: usize, work: &Buffer, more: &Buffer| {
-            let buffers =
-                [(0, &frame), (1, &regions), (2, &found), (3, &lit), (4, &dark), (5, work), (6, more), (7, &spent)];
-            gpu.bind(&kernels.cells[k], &buffers)
+        let pipeline = |k: usize| &kernels.stages[k].pipeline;
+        let common = [(0, &frame), (1, &regions), (2, &found), (3, &sums), (7, &spent)];
+        let light = |k: usize, more: &[(u32, &Buffer)]| gpu.bind(pipeline(k), &[&common[..], more].concat());
+        let binds = [
+            gpu.bind(pipeline(0), &common[..3])?,
+            light(1, &[(5, &hits)])?,
+            light(2, &[(5, &hits), (6, &parts[0])])?,
+            light(3, &[(4, &before), (6, &parts[1]), (8, &parts[0])])?,
+            light(4, &[(4, &before), (6, &parts[0]), (8, &parts[1])])?,
+        ];
+        let seconds = vec![0.0; 1 + LIGHT * kernels.lights.len()];
+        let proved = Proved { seconds, lights: vec![Vec::new(); kernels.lights.len()], ..Proved::default() };
+        let run = Self {
+            gpu,
+            kernels,
+            stop,
+            progress,
+            frame,
+            found,
+            sums,
+            before,
+            hits,
+            parts,
+            spent,
+            binds,
+            proved,
+            clocked: true,
+            done: 0,
         };
-        let cells = [cells(0, &lists[0], &lists[1])?, cells(1, &lists[1], &lists[0])?];
-        Ok(Self { gpu, kernels, count, frame, found, lit, dark, lists, spent, primary, whole, cells })
+        Ok(run)
     }
 
-    fn all(&self, stop: &AtomicBool) -> Result<Proved, Error> {
-        let mut proved = Proved { seconds: vec![0.0], ..Proved::default() };
-        let mut clocked = true;
-        let mut book = |proved: &mut Proved, at: usize, times: Vec<f64>| {
-            clocked &= !times.is_empty();
-            proved.seconds.resize(proved.seconds.len().max(at + 1), 0.0);
-            proved.seconds[at] += times.iter().sum::<f64>();
-        };
-        let go = || if stop.load(Ordering::Relaxed) { Err(Error::Stopped) } else { Ok(()) };
-        let frame = self.kernels.frame;
-        let tiles = frame.width.div_ceil(8) * frame.height.div_ceil(8);
-        for first in (0..tiles).step_by((PIXELS / 64) as usize) {
-            go()?;
-            self.gpu.write(&self.frame, bytemuck::bytes_of(&Frame { first, ..frame }));
-            let groups = [(tiles - first).min(PIXELS / 64), 1, 1];
-            let times = self.gpu.run(&[Pass { pipeline: &self.kernels.primary, bind: &self.primary, groups }])?;
-            book(&mut proved, 0, times);
+    /// Runs `groups` groups of a stage, each of which does `each` items, in dispatches of the stage's pace. `pixels` of work are then done.
+    fn stage(
+        &mut self,
+        stage: usize,
+        place: usize,
+        frame: Frame,
+        groups: u32,
+        each: u32,
+        pixels: u64,
+    ) -> Result<(), Error> {
+        let Stage { pipeline, pace } = &self.kernels.stages[stage];
+        let mut first = 0;
+        while first < groups {
+            if self.stop.load(Ordering::Relaxed) {
+                return Err(Error::Stopped);
+            }
+            let part = pace.next(groups - first);
+            // What is past the end of a list is looked at by nobody.
+            let count = (part * each).min(frame.count - first * each);
+            let frame = Frame { first: frame.first + first * each, count, ..frame };
+            self.gpu.write(&self.frame, bytemuck::bytes_of(&frame));
+            let begin = Instant::now();
+            let times = self.gpu.run(&[Pass { pipeline, bind: &self.binds[stage], groups: [part, 1, 1] }])?;
+            pace.took(part, begin.elapsed().as_secs_f64());
+            self.clocked &= !times.is_empty();
+            self.proved.seconds[place] += times.iter().sum::<f64>();
+            first += part;
+            self.tell(pixels * u64::from(first) / u64::from(groups));
         }
-        let found: Vec<[u32; 4]> = self.gpu.read(&self.found)?;
-        proved.evaluations[0] = found.iter().map(|f| u64::from(f[3])).sum();
-        proved.pixels = found.iter().map(|f| self.pixel(f)).collect();
+        self.done += pixels;
+        self.tell(0);
+        Ok(())
+    }
+
+    fn tell(&mut self, more: u64) {
+        let whole = self.kernels.frame;
+        let passes = (1 + LIGHT * self.kernels.lights.len()) as u64;
+        let all = u64::from(whole.width) * u64::from(whole.height) * passes;
+        (self.progress)((self.done + more) as f64 / all as f64);
+    }
+
+    fn band(&mut self, top: u32, rows: u32) -> Result<(), Error> {
+        let whole = self.kernels.frame;
+        let pixels = rows * whole.width;
+        let work = u64::from(pixels);
+        let base = Frame { base: top * whole.width, ..whole };
+        let across = whole.width.div_ceil(8);
+        let tiles = across * rows.div_ceil(8);
+        self.stage(0, 0, Frame { first: top / 8 * across, count: tiles, ..base }, tiles, 1, work)?;
+        let mut found: Vec<[u32; 4]> = self.gpu.read(&self.found)?;
+        found.truncate(pixels as usize);
+        self.proved.evaluations[0] += found.iter().map(|f| u64::from(f[3])).sum::<u64>();
+        let quantum = whole.quantum();
+        self.proved.pixels.extend(found.iter().map(|f| pixel(f, quantum)));
         for (k, light) in self.kernels.lights.iter().enumerate() {
-            let [first, second] = &self.lists;
-            self.gpu.clear(&[&self.lit, &self.dark, first, second, &self.spent]);
-            let frame = frame.lit_by(k, light);
-            for first in (0..self.count).step_by(PIXELS as usize) {
-                go()?;
-                let count = (self.count - first).min(PIXELS);
-                self.gpu.write(&self.frame, bytemuck::bytes_of(&Frame { first, count, ..frame }));
-                let groups = [count.div_ceil(64), 1, 1];
-                let times = self.gpu.run(&[Pass { pipeline: &self.kernels.whole, bind: &self.whole, groups }])?;
-                book(&mut proved, 3 * k + 1, times);
+            self.gpu.clear(&[&self.sums, &self.hits, &self.parts[0], &self.spent]);
+            let frame = base.lit_by(light);
+            let place = 1 + LIGHT * k;
+            let all = Frame { first: 0, count: pixels, ..frame };
+            self.stage(1, place, all, pixels.div_ceil(GROUP), GROUP, work)?;
+            let hits = self.items(&self.hits, 16)?;
+            self.proved.divided[0] += u64::from(hits);
+            self.stage(2, place + 1, Frame { first: 0, count: hits, ..frame }, hits, 1, work)?;
+            for division in 0..DIVISIONS {
+                let list = &self.parts[division % 2];
+                let parts = self.items(list, PART)?;
+                self.proved.divided[1 + division] += u64::from(parts);
+                self.gpu.copy(&self.sums, &self.before);
+                self.gpu.clear(&[&self.parts[(division + 1) % 2]]);
+                let count = Frame { first: 0, count: parts, ..frame };
+                self.stage(3 + division, place + 2 + division, count, parts.div_ceil(GROUP / 4), GROUP / 4, work)?;
             }
-            for division in 0..SPLIT.len() {
-                go()?;
-                let groups = [if self.gpu.is_software() { GROUPS / 64 } else { GROUPS }, 1, 1];
-                let pass = Pass { pipeline: &self.kernels.cells[division], bind: &self.cells[division], groups };
-                let times = self.gpu.run(&[pass])?;
-                book(&mut proved, 3 * k + 2 + division, times);
-                let list: u32 = self.gpu.read_first(&self.lists[division])?;
-                proved.divided[division] += u64::from(list);
-            }
-            proved.evaluations[1] += u64::from(self.gpu.read_first(&self.spent)?);
-            let (lit, dark) = (self.gpu.read::<u32>(&self.lit)?, self.gpu.read::<u32>(&self.dark)?);
+            self.proved.evaluations[1] += u64::from(self.gpu.read_first(&self.spent)?);
+            let sums: Vec<[u32; 2]> = self.gpu.read(&self.sums)?;
             // Sums of integers, exact; what is lit and what is hidden are different parts of the light.
             let share = |n: u32| f64::from(n) / f64::from(1_u32 << 30);
-            proved.lights.push(lit.iter().zip(&dark).map(|(l, d)| [share(*l), 1.0 - share(*d)]).collect());
+            let brackets = sums.iter().map(|[lit, dark]| [share(*lit), 1.0 - share(*dark)]);
+            self.proved.lights[k].extend(brackets.take(pixels as usize));
         }
-        if !clocked {
-            proved.seconds.clear();
-        }
-        Ok(proved)
+        Ok(())
     }
 
-    fn pixel(&self, [what, a, b, _]: &[u32; 4]) -> Pixel {
-        let quantum = self.kernels.frame.quantum();
-        // Exact: whole numbers below 2^24 and a power of two.
-        let at = |k: u32| f64::from(k) * quantum;
-        match what & 0xff {
-            3 => Pixel::Empty,
-            1 => Pixel::Hit {
-                surface: (what >> 8 & 0xff) as usize,
-                t: Interval::new(at(*a), at(*b)),
-                before: if what >> 16 == 1 { Sign::Positive } else { Sign::Negative },
-            },
-            2 => Pixel::Open { from: at(*a) },
-            // Nobody has written here.
-            _ => Pixel::Open { from: 0.0 },
+    /// How many items of so many bytes a list holds; those that found no place are not in it.
+    fn items(&self, list: &Buffer, bytes: u64) -> Result<u32, Error> {
+        Ok(self.gpu.read_first(list)?.min(((list.size() - HEAD) / bytes) as u32))
+    }
+
+    fn finish(mut self) -> Proved {
+        if !self.clocked {
+            self.proved.seconds.clear();
         }
+        self.proved
+    }
+}
+
+fn pixel([what, a, b, _]: &[u32; 4], quantum: f64) -> Pixel {
+    // Exact: whole numbers below 2^24 and a power of two.
+    let at = |k: u32| f64::from(k) * quantum;
+    match what & 0xff {
+        3 => Pixel::Empty,
+        1 => Pixel::Hit {
+            surface: (what >> 8 & 0xff) as usize,
+            t: Interval::new(at(*a), at(*b)),
+            before: if what >> 16 == 1 { Sign::Positive } else { Sign::Negative },
+        },
+        2 => Pixel::Open { from: at(*a) },
+        // Nobody has written here.
+        _ => Pixel::Open { from: 0.0 },
     }
 }

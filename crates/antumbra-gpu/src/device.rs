@@ -1,6 +1,7 @@
 //! Adapters, and one of them opened: buffers, pipelines, passes with their times.
 use crate::probe::{self, Doubt};
 use antumbra::eval::wgsl::Refusal;
+use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
 use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline, Features};
 
@@ -57,7 +58,18 @@ pub struct Gpu {
     software: bool,
     /// Nanoseconds per tick of its clock, if it has one.
     period: Option<f32>,
-    failure: Arc<Mutex<Option<String>>>,
+    /// No buffer may be larger; bytes.
+    pub(crate) largest: u64,
+    /// What was compiled, by its text, entry point and constants.
+    pipelines: Mutex<HashMap<(String, String), ComputePipeline>>,
+    failures: Arc<Mutex<Failures>>,
+}
+
+/// What the driver told. Of a device that is lost every call fails, each in its own words.
+#[derive(Debug, Default)]
+struct Failures {
+    lost: Option<String>,
+    first: Option<String>,
 }
 
 /// One pass of a kernel.
@@ -135,31 +147,32 @@ impl Gpu {
         let failed = |e: &dyn std::fmt::Display| Error::Failed(e.to_string());
         let info = adapter.get_info();
         let timed = adapter.features() & Features::TIMESTAMP_QUERY;
+        let both = Features::SHADER_F64 | Features::SHADER_INT64;
+        let double = if adapter.features().contains(both) { both } else { Features::empty() };
         let descriptor = wgpu::DeviceDescriptor {
             label: Some("antumbra"),
-            required_features: timed,
+            required_features: timed | double,
             required_limits: wgpu::Limits::default().or_better_values_from(&adapter.limits()),
             ..Default::default()
         };
         let (device, queue) = pollster::block_on(adapter.request_device(&descriptor)).map_err(|e| failed(&e))?;
-        let failure: Arc<Mutex<Option<String>>> = Arc::default();
-        let note = |failure: &Arc<Mutex<Option<String>>>| {
-            let failure = Arc::clone(failure);
-            move |text: String| {
-                failure.lock().unwrap_or_else(PoisonError::into_inner).get_or_insert(text);
-            }
-        };
-        let lost = note(&failure);
+        let failures: Arc<Mutex<Failures>> = Arc::default();
+        let lost = Arc::clone(&failures);
         device.set_device_lost_callback(move |reason, text| {
-            if reason != wgpu::DeviceLostReason::Destroyed {
-                lost(format!("the device was lost: {text}"));
-            }
+            // Nobody hears of it where it is lost because it is dropped.
+            let text = format!("the device was lost ({reason:?}): {text}");
+            lost.lock().unwrap_or_else(PoisonError::into_inner).lost.get_or_insert(text);
         });
-        let wrong = note(&failure);
-        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| wrong(error.to_string())));
+        let wrong = Arc::clone(&failures);
+        device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+            wrong.lock().unwrap_or_else(PoisonError::into_inner).first.get_or_insert(error.to_string());
+        }));
         let period = timed.contains(Features::TIMESTAMP_QUERY).then(|| queue.get_timestamp_period());
         let software = info.device_type == wgpu::DeviceType::Cpu;
-        Ok(Self { device, queue, name: info.name, software, period, failure })
+        let limits = device.limits();
+        let largest = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
+        let pipelines = Mutex::default();
+        Ok(Self { device, queue, name: info.name, software, period, largest, pipelines, failures })
     }
 
     fn probe(&self) -> Result<probe::Report, Error> {
@@ -178,16 +191,25 @@ impl Gpu {
         self.software
     }
 
+    /// Whether shaders have 64-bit floats, and the whole numbers that a fence for them needs.
+    pub(crate) fn has_double(&self) -> bool {
+        self.device.features().contains(Features::SHADER_F64 | Features::SHADER_INT64)
+    }
+
     /// Whatever has gone wrong since the last question.
     pub(crate) fn check(&self) -> Result<(), Error> {
-        let failure = self.failure.lock().unwrap_or_else(PoisonError::into_inner).take();
-        failure.map_or(Ok(()), |text| Err(Error::Failed(text)))
+        let told = || self.failures.lock().unwrap_or_else(PoisonError::into_inner);
+        let Some(first) = told().first.take() else {
+            return told().lost.clone().map_or(Ok(()), |text| Err(Error::Failed(text)));
+        };
+        // The loss itself is told when the device is asked.
+        let _ = self.device.poll(wgpu::PollType::Poll);
+        Err(Error::Failed(told().lost.clone().unwrap_or(first)))
     }
 
     /// A buffer of zeros.
     pub(crate) fn buffer(&self, bytes: u64, usage: BufferUsages) -> Result<Buffer, Error> {
-        let limits = self.device.limits();
-        if bytes > limits.max_buffer_size || bytes > limits.max_storage_buffer_binding_size {
+        if bytes > self.largest {
             return Err(Error::Failed(format!("a buffer of {bytes} bytes is larger than it allows")));
         }
         let usage = usage | BufferUsages::COPY_DST | BufferUsages::COPY_SRC;
@@ -213,23 +235,25 @@ impl Gpu {
         self.queue.write_buffer(buffer, 0, content);
     }
 
-    pub(crate) fn module(&self, text: &str) -> Result<wgpu::ShaderModule, Error> {
-        let source = wgpu::ShaderSource::Wgsl(text.into());
-        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
-        self.check()?;
-        Ok(module)
-    }
-
+    /// A kernel of the text; compiled once for each text, entry point and constants, as long as this device lives.
     pub(crate) fn pipeline(
         &self,
-        module: &wgpu::ShaderModule,
+        text: &str,
         entry: &str,
         constants: &[(&str, f64)],
     ) -> Result<ComputePipeline, Error> {
+        let key = (text.to_owned(), format!("{entry} {constants:?}"));
+        let kept = |gpu: &Self| gpu.pipelines.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
+        if let Some(pipeline) = kept(self) {
+            return Ok(pipeline);
+        }
+        let source = wgpu::ShaderSource::Wgsl(text.into());
+        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+        self.check()?;
         let pipeline = self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
             label: Some(entry),
             layout: None,
-            module,
+            module: &module,
             entry_point: Some(entry),
             compilation_options: wgpu::PipelineCompilationOptions {
                 constants,
@@ -238,7 +262,14 @@ impl Gpu {
             cache: None,
         });
         self.check()?;
+        self.pipelines.lock().unwrap_or_else(PoisonError::into_inner).insert(key, pipeline.clone());
         Ok(pipeline)
+    }
+
+    /// Loses the device, as a driver does that was reset.
+    #[cfg(test)]
+    pub(crate) fn lose(&self) {
+        self.device.destroy();
     }
 
     /// Binds buffers to the places of the first group.
@@ -258,6 +289,13 @@ impl Gpu {
     pub(crate) fn clear(&self, buffers: &[&Buffer]) {
         let mut encoder = self.device.create_command_encoder(&Default::default());
         buffers.iter().for_each(|buffer| encoder.clear_buffer(buffer, 0, None));
+        self.queue.submit([encoder.finish()]);
+    }
+
+    /// Copies the whole of a buffer into another one.
+    pub(crate) fn copy(&self, from: &Buffer, to: &Buffer) {
+        let mut encoder = self.device.create_command_encoder(&Default::default());
+        encoder.copy_buffer_to_buffer(from, 0, to, 0, from.size());
         self.queue.submit([encoder.finish()]);
     }
 

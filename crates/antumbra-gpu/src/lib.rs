@@ -9,16 +9,21 @@ mod assist;
 mod certified;
 mod compare;
 mod device;
+#[cfg(test)]
+mod faults;
+mod pace;
 mod paper;
 pub mod probe;
 mod scene;
 #[cfg(test)]
 mod tests;
+mod throughput;
 #[cfg(test)]
 mod twin;
 
 pub use assist::{Share, assist};
-pub use certified::{Kernels, Pixel, Proved};
+pub use certified::{Kernels, Pixel, Proved, check};
 pub use compare::{Comparison, compare};
 pub use device::{Adapter, Error, Gpu, adapters};
 pub use paper::{Found, Paper};
+pub use throughput::{Throughput, throughput};

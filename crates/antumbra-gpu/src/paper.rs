@@ -66,12 +66,12 @@ impl Paper {
         always: bool,
     ) -> Result<Self, Error> {
         let (frame, regions) = scene::frame(surfaces, film)?;
-        let frame = frame.lit_by(0, light);
+        let frame = frame.lit_by(light);
         let kinds = [Kind::Form, Kind::Interval];
         let functions = scene::functions(surfaces, &kinds, &frame, film, std::slice::from_ref(light))?;
         let [common, kernel] = [include_str!("kernels/frame.wgsl"), include_str!("kernels/paper.wgsl")];
-        let module = gpu.module(&format!("{FORMS}\n{INTERVALS}\n{common}\n{functions}\n{kernel}"))?;
-        let pipeline = |entry| gpu.pipeline(&module, entry, &[]);
+        let text = format!("{FORMS}\n{INTERVALS}\n{common}\n{functions}\n{kernel}");
+        let pipeline = |entry| gpu.pipeline(&text, entry, &[]);
         let kernels = [pipeline("grid")?, pipeline("pixels")?, pipeline("initial")?, pipeline("sub_beams")?];
         let mut slabs = Vec::with_capacity(3 * cells * surfaces.len());
         for surface in surfaces {

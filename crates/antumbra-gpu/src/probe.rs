@@ -4,7 +4,8 @@
 //! by itself, alone and in expressions that compilers rewrite; what happens to subnormal numbers. A
 //! probe is no proof of a compiler; it finds those that do not respect the fence.
 use crate::device::{Error, Gpu, Pass};
-use antumbra::eval::wgsl::FORMS;
+use antumbra::eval::wgsl::{FORMS, FUNCTIONS};
+use antumbra_interval::Interval;
 use std::fmt;
 use wgpu::BufferUsages;
 
@@ -51,7 +52,7 @@ impl fmt::Display for Doubt {
     }
 }
 
-const FENCED: [&str; 12] = [
+const FENCED: [&str; 18] = [
     "x + y",
     "x - y",
     "x * y",
@@ -64,12 +65,18 @@ const FENCED: [&str; 12] = [
     "((x + y) + z) - (x + (y + z))",
     "x / y",
     "the error of a product of forms",
+    "the enclosure of 1/x",
+    "the enclosure of sqrt(x)",
+    "the enclosure of ln(x)",
+    "the enclosure of exp(x)",
+    "the enclosure of sin(x)",
+    "the enclosure of cos(x)",
 ];
 
 const CASES: usize = 1 << 14;
 
 pub(crate) fn text() -> String {
-    format!("{FORMS}\n{}", include_str!("probe.wgsl"))
+    format!("{FORMS}\n{FUNCTIONS}\n{}", include_str!("probe.wgsl"))
 }
 
 pub(crate) fn run(gpu: &Gpu) -> Result<Report, Error> {
@@ -83,20 +90,28 @@ pub(crate) fn run_text(gpu: &Gpu, text: &str) -> Result<Report, Error> {
     let input = gpu.filled(bytemuck::cast_slice(&cases), BufferUsages::STORAGE)?;
     let fenced = gpu.storage((cases.len() * 48) as u64)?;
     let bare = gpu.storage((cases.len() * 24) as u64)?;
-    let pipeline = gpu.pipeline(&gpu.module(text)?, "probe", &[])?;
-    let bind = gpu.bind(&pipeline, &[(0, &zero), (1, &input), (2, &fenced), (3, &bare)])?;
+    let functions = gpu.storage((cases.len() * 48) as u64)?;
+    let pipeline = gpu.pipeline(text, "probe", &[])?;
+    let bind = gpu.bind(&pipeline, &[(0, &zero), (1, &input), (2, &fenced), (3, &bare), (4, &functions)])?;
     gpu.run(&[Pass { pipeline: &pipeline, bind: &bind, groups: [cases.len().div_ceil(64) as u32, 1, 1] }])?;
     let fenced: Vec<[f32; 12]> = gpu.read(&fenced)?;
     let bare: Vec<[f32; 6]> = gpu.read(&bare)?;
+    let functions: Vec<[[f32; 2]; 6]> = gpu.read(&functions)?;
 
     let mut report = Report { cases: cases.len(), subnormals: true, rewritten: [0; 6] };
-    let (mut first, mut counts) = (None, [0; 12]);
-    for ((case, fenced), bare) in cases.iter().zip(&fenced).zip(&bare) {
+    let (mut first, mut counts) = (None, [0; FENCED.len()]);
+    for (((case, fenced), bare), functions) in cases.iter().zip(&fenced).zip(&bare).zip(&functions) {
         let [x, y, z, _] = *case;
         for k in 0..12 {
             if let Some(wanted) = judge(&mut report, k, [x, y, z], fenced[k]) {
                 counts[k] += 1;
                 first.get_or_insert((k, [x, y, z], fenced[k], wanted));
+            }
+        }
+        for k in 0..6 {
+            if let Some(wanted) = judge_function(k, x, functions[k]) {
+                counts[12 + k] += 1;
+                first.get_or_insert((12 + k, [x, y, z], functions[k][0], wanted));
             }
         }
         let wanted = [(x + y) - x, (x + 1e6) - 1e6, x * y + x * z, (x * 3.0) * 0.3333, x * y + z, 1.0 / (1.0 / x)];
@@ -166,6 +181,28 @@ pub(crate) fn judge(report: &mut Report, k: usize, [x, y, z]: [f32; 3], found: f
     // A division may be off by 2.5 units.
     let close = k == 10 && (found - wanted).abs() <= 4.0 * f32::EPSILON * wanted.abs();
     (!same(found, wanted) && !close && !vague).then_some(wanted)
+}
+
+/// What function number `k` of `x` is about, if its enclosure `[middle, error]` does not hold it or is wider than it should be.
+fn judge_function(k: usize, x: f32, [middle, error]: [f32; 2]) -> Option<f32> {
+    let at = |v: f32| Interval::point(f64::from(v));
+    let a = at(x.abs().clamp(2.0_f32.powi(-60), 2.0_f32.powi(60)));
+    // The clamp of a subnormal number may be 0.
+    let w = at(if x.is_subnormal() { 0.0 } else { x.clamp(-1000.0, 1000.0) });
+    let e = at(if x.is_subnormal() { 0.0 } else { x.clamp(-59.0, 40.0) });
+    let value = match k {
+        0 => Interval::ONE / a,
+        1 => a.sqrt(),
+        2 => a.ln(),
+        3 => e.exp(),
+        4 => w.sin(),
+        _ => w.cos(),
+    };
+    // Units of 2^-23 of the value, and for logarithms and waves of 1.
+    let size = value.magnitude() + if matches!(k, 2 | 4 | 5) { 1.0 } else { 0.0 };
+    let fine = (value - at(middle)).magnitude() <= f64::from(error)
+        && f64::from(error) <= 8.0 * f64::from(f32::EPSILON) * size;
+    (!fine).then_some(value.mid() as f32)
 }
 
 /// Random numbers of many sizes, small whole numbers, and subnormal ones.

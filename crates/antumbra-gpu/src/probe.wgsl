@@ -5,6 +5,8 @@
 @group(0) @binding(2) var<storage, read_write> fenced: array<array<f32, 12>>;
 @group(0) @binding(3) var<storage, read_write> bare: array<array<f32, 6>>;
 
+@group(0) @binding(4) var<storage, read_write> functions: array<array<vec2<f32>, 6>>;
+
 fn runtime_zero() -> u32 { return zero.x; }
 
 @compute @workgroup_size(64)
@@ -32,4 +34,13 @@ fn probe(@builtin(global_invocation_id) id: vec3<u32>) {
     bare[id.x][3] = (x * 3.0) * 0.3333;
     bare[id.x][4] = x * y + z;
     bare[id.x][5] = 1.0 / (1.0 / x);
+    lost = false;
+    let a = clamp(abs(x), SMALL, LARGE);
+    let q = b_recip(a);
+    let r = b_sqrt(a);
+    let l = b_ln(a);
+    let e = b_exp(clamp(x, -59.0, 40.0));
+    let w = b_wave(clamp(x, -1000.0, 1000.0));
+    functions[id.x] = array<vec2<f32>, 6>(vec2(q.m, q.r), vec2(r.m, r.r), vec2(l.m, l.r), vec2(e.m, e.r), vec2(w.s, w.e), vec2(w.c, w.e));
+    if lost { functions[id.x][0] = vec2(0.0, 0.0); }
 }

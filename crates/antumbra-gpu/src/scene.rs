@@ -23,7 +23,7 @@ pub(crate) struct Frame {
     pub(crate) half_quantum: f32,
     pub(crate) half_unit: f32,
     pub(crate) units: u32,
-    pub(crate) light: u32,
+    pub(crate) base: u32,
     pub(crate) eye: [f32; 4],
     pub(crate) eye_e: [f32; 4],
     pub(crate) forward: [f32; 4],
@@ -152,7 +152,7 @@ pub(crate) fn frame(surfaces: &[Surface<'_>], film: &Film) -> Result<(Frame, Vec
         half_quantum: (0.5 * quantum) as f32,
         half_unit: 0.5 / UNITS as f32,
         units: UNITS,
-        light: 0,
+        base: 0,
         eye: round(camera.eye),
         eye_e: errors(|k| U * (camera.eye[k] - eye[k]).abs() + 1e-15 * camera.eye[k].abs()),
         forward: round(coarse(camera.forward)),
@@ -178,10 +178,9 @@ impl Frame {
     }
 
     /// The same picture under that light.
-    pub(crate) fn lit_by(self, index: usize, light: &Rect) -> Self {
+    pub(crate) fn lit_by(self, light: &Rect) -> Self {
         let size = |k: usize| 0.5 * light.center[k].abs() + light.edge_u[k].abs() + light.edge_v[k].abs();
         Self {
-            light: index as u32,
             center: round(light.center),
             edge_u: round(light.edge_u),
             edge_v: round(light.edge_v),
@@ -223,7 +222,15 @@ pub(crate) fn functions(
     if !reach.iter().all(|m| *m < f64::from(FAR) / 4.0) {
         return Err(Error::Scene("coordinates as large as these are not for 32-bit numbers"));
     }
-    let mut text = format!("const SURFACES = {}u;\n", surfaces.len());
+    let beyond = surfaces.iter().filter_map(|s| s.function.as_tape()).any(wgsl::needs_functions);
+    // Whether there is more than `+ - *`, abs, min and max.
+    let mut text = format!("const SURFACES = {}u;\nconst FUNCTIONS = {beyond};\n", surfaces.len());
+    if beyond {
+        text.push_str(wgsl::FUNCTIONS);
+        if kinds.contains(&Kind::Interval) {
+            text.push_str(wgsl::INTERVAL_FUNCTIONS);
+        }
+    }
     let mut choose: Vec<String> = vec![String::new(); kinds.len()];
     for (k, surface) in surfaces.iter().enumerate() {
         let tape: &Tape = surface.function.as_tape().ok_or(wgsl::Refusal::NoFormula)?;

@@ -1,17 +1,18 @@
 //! Arithmetic on the adapter at hand: bit for bit that of the Rust twin; the probe; tapes against enclosures in 64 bits.
 use crate::device::{Error, Gpu, Pass};
 use crate::probe;
-use crate::twin::{R, Twin, TwinSlope};
-use antumbra::eval::wgsl::{self, FLOOR, FORMS, INTERVALS, Kind};
+use crate::twin::{R, Twin, TwinSlope, take_lost};
+use antumbra::eval::wgsl::{self, FLOOR, FORMS, FUNCTIONS, INTERVAL_FUNCTIONS, INTERVALS, Kind};
 use antumbra::eval::{Inclusion, Workspace, run};
 use antumbra::expr::Formula;
 use antumbra::geom::Box3;
 use antumbra::tape::Tape;
 use antumbra_interval::Interval;
+use antumbra_interval::affine::Affine;
 use wgpu::BufferUsages;
 
 /// Formulas that use every operator that the GPU has.
-const FORMULAS: [&str; 8] = [
+const FORMULAS: [&str; 15] = [
     "x + y - z",
     "x y z - 3 x^2 + 0.1 y - 7/3",
     "x^4 + y^4 + z^4 - x^2 - y^2 - z^2 + 1/2",
@@ -20,10 +21,17 @@ const FORMULAS: [&str; 8] = [
     "max(x, y) - min(y z, 0.3) + abs(z - 1/3)",
     "x^7 - 2 y^5 + (x - y)^3 z - pi",
     "-abs(x y) + 1e-30 z",
+    "sin(3x) + cos(y - z) / 3",
+    "exp(-4 (x^2 + y^2)) - z / 7 + exp(2z)",
+    "(x + z) / (y^2 + 1/4) + 1 / (x - 3)",
+    "sqrt(x^2 + y^2 + 0.01) - z + sqrt(abs(x - z))",
+    "ln(1/8 + x^2) y + z",
+    "cosh(x) - sinh(y) z",
+    "(x^2 + y^2)^1.5 - (z^2 + 1)^-0.25 + (x^2 + 2)^-3",
 ];
 
 /// The adapter; `None`, said loudly, where there is none and `ANTUMBRA_GPU_REQUIRED` is not set.
-fn gpu() -> Option<Gpu> {
+pub(crate) fn gpu() -> Option<Gpu> {
     match Gpu::open(true) {
         Ok(gpu) => Some(gpu),
         Err(Error::NoAdapter) if std::env::var_os("ANTUMBRA_GPU_REQUIRED").is_none() => {
@@ -41,8 +49,7 @@ fn tape(text: &str) -> Tape {
 /// Runs `entry` once per input.
 fn evaluate<I: bytemuck::Pod, O: bytemuck::Pod>(gpu: &Gpu, text: &str, inputs: &[I]) -> Vec<O> {
     let head = "@group(0) @binding(0) var<uniform> zero: vec4<u32>;\nfn runtime_zero() -> u32 { return zero.x; }\n";
-    let module = gpu.module(&format!("{head}{text}")).unwrap();
-    let pipeline = gpu.pipeline(&module, "main", &[]).unwrap();
+    let pipeline = gpu.pipeline(&format!("{head}{text}"), "main", &[]).unwrap();
     let zero = gpu.filled(bytemuck::cast_slice(&[0_u32; 4]), BufferUsages::UNIFORM).unwrap();
     let input = gpu.filled(bytemuck::cast_slice(inputs), BufferUsages::STORAGE).unwrap();
     let output = gpu.storage((inputs.len() * size_of::<O>()) as u64).unwrap();
@@ -67,6 +74,16 @@ fn forms(count: usize, seed: u64) -> Vec<[[f32; 5]; 3]> {
 
 fn twin<const FLUSH: bool>([c, e, x, y, z]: [f32; 5]) -> Twin<FLUSH> {
     Twin::new(R(c), R(e), [R(x), R(y), R(z)])
+}
+
+/// What the kernels answer where something was lost: 0 +- 1, which proves nothing.
+fn unknown<const FLUSH: bool>() -> Twin<FLUSH> {
+    twin([0.0, 1.0, 0.0, 0.0, 0.0])
+}
+
+/// The answer, if nothing was lost on the way.
+fn known<T>(answer: T) -> Option<T> {
+    (!take_lost()).then_some(answer)
 }
 
 fn bits<const FLUSH: bool>(f: Twin<FLUSH>) -> [f32; 5] {
@@ -132,10 +149,10 @@ fn forms_are_those_of_the_twin_bit_for_bit() {
                 outputs[id.x] = array<f32, 5>(f.c, f.e, f.a.x, f.a.y, f.a.z);
             }";
         let inputs = forms(4096, k as u64);
-        let found: Vec<[f32; 5]> = evaluate(&gpu, &format!("{FORMS}{function}{main}"), &inputs);
+        let found: Vec<[f32; 5]> = evaluate(&gpu, &format!("{FORMS}{FUNCTIONS}{function}{main}"), &inputs);
         for (input, found) in inputs.iter().zip(&found) {
-            let kept = run(&tape, input.map(twin::<false>), &mut Vec::new());
-            let flushed = run(&tape, input.map(twin::<true>), &mut Vec::new());
+            let kept = known(run(&tape, input.map(twin::<false>), &mut Vec::new())).unwrap_or_else(unknown);
+            let flushed = known(run(&tape, input.map(twin::<true>), &mut Vec::new())).unwrap_or_else(unknown);
             judge.look(&|| format!("{text} of {input:?}"), found, bits(kept), bits(flushed));
         }
     }
@@ -166,10 +183,10 @@ fn slopes_are_those_of_the_twin_bit_for_bit() {
             }";
         let flat = forms(3 * 2048, 100 + k as u64);
         let inputs: Vec<[[[f32; 5]; 3]; 3]> = flat.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
-        let found: Vec<[f32; 5]> = evaluate(&gpu, &format!("{FORMS}{function}{main}"), &inputs);
+        let found: Vec<[f32; 5]> = evaluate(&gpu, &format!("{FORMS}{FUNCTIONS}{function}{main}"), &inputs);
         for (input, found) in inputs.iter().zip(&found) {
-            let kept = run(&tape, input.map(slope::<false>), &mut Vec::new()).g;
-            let flushed = run(&tape, input.map(slope::<true>), &mut Vec::new()).g;
+            let kept = known(run(&tape, input.map(slope::<false>), &mut Vec::new()).g).unwrap_or_else(unknown);
+            let flushed = known(run(&tape, input.map(slope::<true>), &mut Vec::new()).g).unwrap_or_else(unknown);
             judge.look(&|| format!("{text} of {input:?}"), found, bits(kept), bits(flushed));
         }
     }
@@ -200,6 +217,7 @@ fn containment<const FLUSH: bool>(power: i32) {
     let mut work = Workspace::default();
     for (k, text) in FORMULAS.iter().enumerate() {
         let tape = tape(text);
+        let mut lost = 0;
         for mut input in forms(2000, 50 + k as u64) {
             if power != 0 {
                 // One coordinate stays as it is.
@@ -210,7 +228,10 @@ fn containment<const FLUSH: bool>(power: i32) {
                     input[k][1] = input[k][1].max(FLOOR);
                 }
             }
-            let form = run(&tape, input.map(twin::<FLUSH>), &mut Vec::new());
+            let Some(form) = known(run(&tape, input.map(twin::<FLUSH>), &mut Vec::new())) else {
+                lost += 1;
+                continue;
+            };
             let symbols = [0; 3].map(|_| Interval::point(if random.bool() { 1.0 } else { 2.0 * random.f64() - 1.0 }));
             let number = |v: f32| Interval::point(f64::from(v));
             let linear = |c: f32, a: [f32; 3]| (0..3).fold(number(c), |sum, i| sum + number(a[i]) * symbols[i]);
@@ -226,9 +247,60 @@ fn containment<const FLUSH: bool>(power: i32) {
         // Points: what is left is rounding, some hundred units of the largest number on the way.
         for _ in 0..200 {
             let point = [0; 3].map(|_| 2.0 * random.f32() - 1.0);
-            let form = run(&tape, point.map(|c| twin::<FLUSH>([c, FLOOR, 0.0, 0.0, 0.0])), &mut Vec::new());
-            assert!(form.e.0 < 1e-3, "{text} at {point:?}: {form:?}");
+            let form = known(run(&tape, point.map(|c| twin::<FLUSH>([c, FLOOR, 0.0, 0.0, 0.0])), &mut Vec::new()));
+            assert!(form.is_some_and(|form| form.e.0 < 1e-3), "{text} at {point:?}: {form:?}");
         }
+        // Few forms are lost, and what the smaller ones leave open is what the processor's leave, but for rounding.
+        assert!(lost < 400, "{text}: {lost}");
+        for input in forms(500, 90 + k as u64) {
+            let input = input.map(|[c, e, x, y, z]| [c, e.min(1e-5), 0.02 * x, 0.02 * y, 0.02 * z]);
+            let wide = |f: [f32; 5]| {
+                let [c, e, x, y, z] = f.map(f64::from);
+                Affine::<3>::linear(c, [x, y, z], e)
+            };
+            let cpu = run(&tape, input.map(wide), &mut Vec::new());
+            let Some(form) = known(run(&tape, input.map(twin::<FLUSH>), &mut Vec::new())) else { continue };
+            let (range, e) = (cpu.range(), f64::from(form.e.0));
+            let most = 6.0 * cpu.error() + 3e-4 * (1.0 + range.magnitude());
+            assert!(e <= most, "{text} of {input:?}: {form:?} {cpu:?}");
+        }
+    }
+}
+
+/// Along random segments `P + t D` the quotient `(f(P + t D) - f(P)) / t` lies in the slope of the twin.
+#[test]
+fn slopes_of_the_twin_enclose() {
+    let mut random = fastrand::Rng::with_seed(9);
+    let mut work = Workspace::default();
+    let number = |v: f32| Interval::point(f64::from(v));
+    for text in FORMULAS {
+        let tape = tape(text);
+        let mut known_ones = 0;
+        for _ in 0..1000 {
+            let [p, d] = [0; 2].map(|_| [0; 3].map(|_| 2.0 * random.f32() - 1.0));
+            // Parameters that make products exact enough; the rest is in the errors.
+            let (t, h) = (f32::from(random.u8(1..=255)) / 128.0, f32::from(random.u8(0..=255)) / 1024.0);
+            let h = h.min(t / 2.0);
+            let input: [TwinSlope<false>; 3] = std::array::from_fn(|k| {
+                let v = twin([p[k] + t * d[k], 1e-6, h * d[k], 0.0, 0.0]);
+                TwinSlope { p: [R(p[k]), R(FLOOR)], v, g: twin([d[k], FLOOR, 0.0, 0.0, 0.0]) }
+            });
+            let Some(slope) = known(run(&tape, input, &mut Vec::new())) else { continue };
+            known_ones += 1;
+            for s in [-1.0_f32, 1.0, 2.0 * random.f32() - 1.0] {
+                let at = number(t) + number(h) * number(s);
+                let start = tape.range(&Box3(p.map(number)), &mut work);
+                let there = tape.range(&Box3(std::array::from_fn(|k| number(p[k]) + at * number(d[k]))), &mut work);
+                let off = (there - start) / at - (number(slope.g.c.0) + number(slope.g.a[0].0) * number(s));
+                let e = f64::from(slope.g.e.0);
+                assert!(off.lo() <= e && off.hi() >= -e, "{text} from {p:?} along {d:?} at {at:?}: {off:?} {slope:?}");
+                let (value, apex) =
+                    (there - number(slope.v.c.0) - number(slope.v.a[0].0) * number(s), start - number(slope.p[0].0));
+                assert!(value.magnitude() <= f64::from(slope.v.e.0) + 1e-12, "{text}: {value:?} {slope:?}");
+                assert!(apex.magnitude() <= f64::from(slope.p[1].0) + 1e-12, "{text}: {apex:?} {slope:?}");
+            }
+        }
+        assert!(known_ones > 500, "{text}: {known_ones}");
     }
 }
 
@@ -248,7 +320,8 @@ fn intervals_on_the_gpu_enclose_and_are_tight() {
             }";
         let inputs: Vec<[[f32; 2]; 3]> =
             forms(4096, 200 + k as u64).iter().map(|point| point.map(|f| [f[0].min(f[2]), f[0].max(f[2])])).collect();
-        let found: Vec<[f32; 2]> = evaluate(&gpu, &format!("{INTERVALS}{function}{main}"), &inputs);
+        let found: Vec<[f32; 2]> =
+            evaluate(&gpu, &format!("{FORMS}{INTERVALS}{FUNCTIONS}{INTERVAL_FUNCTIONS}{function}{main}"), &inputs);
         for (input, [lo, hi]) in inputs.iter().zip(&found) {
             let region = Box3(input.map(|[a, b]| Interval::new(f64::from(a), f64::from(b))));
             let wanted = tape.range(&region, &mut work);
@@ -288,6 +361,10 @@ fn the_probe_passes_here_and_finds_a_broken_fence() {
                 "fn mul(x: f32, y: f32) -> f32 { return fence(fma(x, y, 1e-9)); }",
             ),
         ),
+        (
+            "too small an error",
+            ("return Ball(mul(p, scale), mul(4.0 * U, scale));", "return Ball(mul(p, scale), mul(0.25 * U, scale));"),
+        ),
     ] {
         let changed = text.replace(broken.0, broken.1);
         assert_ne!(changed, text);
@@ -304,12 +381,15 @@ fn the_probe_passes_here_and_finds_a_broken_fence() {
 #[test]
 fn what_the_gpu_cannot_do_is_refused_by_name() {
     let refused = |text: &str| wgsl::function(&tape(text), "f", Kind::Form).unwrap_err().to_string();
-    assert!(refused("sin(x) + y").contains("`sin`"));
-    assert!(refused("1 / x").contains("`/`") || refused("1 / x").contains("exponent"));
+    assert!(refused("atan(x) + y").contains("`atan`"));
+    assert!(refused("(x^2 + 1)^y").contains("exponent"));
+    assert!(refused("floor(x) + y").contains("`floor`"));
     let far = [4.0; 3];
     assert!(wgsl::Reach::check(&tape("x^4 + y"), far, far).is_ok());
     assert!(matches!(wgsl::Reach::check(&tape("(x y z)^40"), far, far), Err(wgsl::Refusal::Overflow(_))));
-    assert!(wgsl::Reach::check(&tape("1 / x"), far, far).is_err());
+    assert!(wgsl::Reach::check(&tape("1 / x"), far, far).is_ok());
+    assert!(wgsl::Reach::check(&tape("(1 / x)^8"), far, far).is_err());
+    assert!(wgsl::Reach::check(&tape("exp(9x) - y^3"), far, far).is_ok());
 }
 
 /// What a GPU that flushes subnormal numbers would answer passes; a contracted product, or a step too many, does not.

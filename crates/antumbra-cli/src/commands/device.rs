@@ -4,7 +4,7 @@ use antumbra::render::{Method, Renderer};
 use antumbra_gpu::{Error, Gpu, assist};
 use anyhow::{Result, anyhow};
 
-use crate::{output::remark, values::Device};
+use crate::{output::remark, progress::Progress, values::Device};
 
 /// Lets the GPU prove what it can, if that is wanted; the processor does the rest, and all of it where the GPU does nothing.
 ///
@@ -34,7 +34,10 @@ pub(super) fn prepare(device: Device, method: Method, renderer: &mut Renderer, q
             return Ok(());
         }
     };
-    match assist(&gpu, renderer) {
+    let progress = Progress::new(quiet, gpu.name());
+    let assisted = assist(&gpu, renderer, &mut |done| progress.set(done));
+    drop(progress);
+    match assisted {
         Ok(share) => {
             let percent = |n: usize, of: usize| 100.0 * n as f64 / of.max(1) as f64;
             let [compiled, done] = share.seconds;

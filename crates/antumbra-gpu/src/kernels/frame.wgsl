@@ -5,15 +5,15 @@ struct Frame {
     zero: u32,              // 0, which the compiler does not know
     width: u32,
     height: u32,
-    first: u32,             // first pixel of this dispatch
-    count: u32,             // pixels of this dispatch
+    first: u32,             // first tile, pixel of the band, or item of this dispatch
+    count: u32,             // so many
     begin: u32,             // camera rays are looked at from this multiple of the quantum ...
     end: u32,               // ... to this one
     longest: u32,           // the longest piece, a power of two
     half_quantum: f32,
     half_unit: f32,         // the same for shadow beams, whose parameters go from 0 to 1
     units: u32,             // multiples in [0, 1]
-    light: u32,             // index of the light
+    base: u32,              // first pixel of the band that is in memory
     eye: vec4<f32>,
     eye_e: vec4<f32>,
     forward: vec4<f32>,

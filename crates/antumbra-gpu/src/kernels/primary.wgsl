@@ -103,8 +103,8 @@ fn primary(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id)
     let number = frame.first + tile.x;
     let column = (number % across) * 8u + at.x;
     let row = (number / across) * 8u + at.y;
-    if column < frame.width && row < frame.height {
+    if tile.x < frame.count && column < frame.width && row < frame.height {
         let index = row * frame.width + column;
-        found[index] = pixel(index);
+        found[index - frame.base] = pixel(index);
     }
 }

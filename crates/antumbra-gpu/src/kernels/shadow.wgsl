@@ -2,15 +2,20 @@
 // one thread per part: certified shares are added up as integers.
 
 @group(0) @binding(2) var<storage, read> found: array<vec4<u32>>;
-// Per pixel: the lit share and the hidden share that are proved, in units of 2^-30.
-@group(0) @binding(3) var<storage, read_write> lit: array<atomic<u32>>;
-@group(0) @binding(4) var<storage, read_write> dark: array<atomic<u32>>;
-struct List { count: atomic<u32>, items: array<vec4<u32>> }
-// Work of this pass, and of the next: pixel, part of the light (row << 16 | column), and where its beam is open: outside of that stretch
-// of parameters it is proved free, for all of the part.
-@group(0) @binding(5) var<storage, read_write> work: List;
-@group(0) @binding(6) var<storage, read_write> more: List;
+// Per pixel of the band: the lit share and the hidden share that are proved, in units of 2^-30.
+@group(0) @binding(3) var<storage, read_write> sums: array<atomic<u32>>;
+// The same before this pass: what a pass looks at does not depend on which of its threads come first.
+@group(0) @binding(4) var<storage, read> before: array<u32>;
+// Hits whose light is divided: pixel, and where their beam is open: outside of that stretch of parameters it is proved free.
+struct Hits { count: atomic<u32>, items: array<vec4<u32>> }
+@group(0) @binding(5) var<storage, read_write> hits: Hits;
+// Parts of the light that are looked at again: pixel, row << 16 | column, the stretch, and the shares above which it may add, in the units of `sums`.
+struct Part { index: u32, place: u32, first: u32, last: u32, lit: u32, dark: u32, pad0: u32, pad1: u32 }
+struct Parts { count: atomic<u32>, pad0: u32, pad1: u32, pad2: u32, items: array<Part> }
+@group(0) @binding(6) var<storage, read_write> more: Parts;
 @group(0) @binding(7) var<storage, read_write> spent: atomic<u32>;
+struct Work { count: u32, pad0: u32, pad1: u32, pad2: u32, items: array<Part> }
+@group(0) @binding(8) var<storage, read> work: Work;
 
 const ONE = 1073741824u;    // 2^30
 const HIT = 1u;
@@ -27,7 +32,7 @@ struct Hit { p: vec3<f32>, e: vec3<f32>, surface: u32, positive: bool }
 // The box of a hit: the centre ray between its parameters.
 fn hit_of(index: u32) -> Hit {
     let it = found[index];
-    let q = camera_point(pixel_ray(index, 0.0), it.y, it.z - it.y);
+    let q = camera_point(pixel_ray(frame.base + index, 0.0), it.y, it.z - it.y);
     let e = vec3<f32>(f_radius(q.x), f_radius(q.y), f_radius(q.z));
     return Hit(vec3<f32>(q.x.c, q.y.c, q.z.c), e, (it.x >> 8u) & 0xffu, (it.x >> 16u) == 1u);
 }
@@ -130,7 +135,17 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
             if !settled {
                 evaluations++;
                 var f: Form;
-                if own && f32(pos) <= SLOPE * f32(pos + len) { f = beam_slope(hit, ray, p); } else { f = field(k, p); }
+                if own && f32(pos) <= SLOPE * f32(pos + len) {
+                    f = beam_slope(hit, ray, p);
+                    // Slopes of functions are good near the hit only; farther away the value may have a sign.
+                    if FUNCTIONS && pos > 0u && f_sign(f) == 0 {
+                        evaluations++;
+                        let g = field(k, p);
+                        if f_sign(g) != 0 { f = g; }
+                    }
+                } else {
+                    f = field(k, p);
+                }
                 if front < 0 { f = f_neg(f); }
                 let s = f_sign(f);
                 // Lower plane at the parameter where it is lowest, and its upper bound there.
@@ -211,45 +226,112 @@ fn whole(@builtin(global_invocation_id) id: vec3<u32>) {
     let index = frame.first + id.x;
     if id.x >= frame.count || (found[index].x & 0xffu) != HIT { return; }
     let shares = look(hit_of(index), vec2<f32>(0.0), vec2<f32>(1.0), 1.0, false, 0u, frame.units);
-    if shares.lit == 1.0 { atomicStore(&lit[index], ONE); return; }
-    if shares.dark == 1.0 { atomicStore(&dark[index], ONE); return; }
-    let at = atomicAdd(&more.count, 1u);
-    if at < arrayLength(&more.items) { more.items[at] = vec4<u32>(index, 0u, shares.first, shares.last); }
+    if shares.lit == 1.0 { atomicStore(&sums[2u * index], ONE); return; }
+    if shares.dark == 1.0 { atomicStore(&sums[2u * index + 1u], ONE); return; }
+    let at = atomicAdd(&hits.count, 1u);
+    if at < arrayLength(&hits.items) { hits.items[at] = vec4<u32>(index, 0u, shares.first, shares.last); }
 }
 
-// Each item of `work` is a square of the grid of SIDE x SIDE squares of the light; it is divided in SPLIT x SPLIT.
-override SIDE: u32 = 1u;
-override SPLIT: u32 = 8u;
-// What remains unknown of a part beyond this share is looked at again.
-override REST: f32 = 0.01;
+// The light is divided in SIDE x SIDE parts.
+override SIDE: u32 = 8u;
+// What may remain unknown of a light, as a number of parts of the first division: the tolerance.
+override ROOM: f32 = 0.25;
 // Pieces longer than so many widths of the part are halved.
-override ASPECT: f32 = 2.0;
+override ASPECT: f32 = 1.0;
+// Where more is unknown than so many parts of 64, the numbers are too coarse or the place too narrow: that is for the processor.
+const HOPELESS: f32 = 40.0;
+
+struct Seen { shares: Shares, lit: u32, dark: u32, unknown: f32 }
+
+fn part_of(hit: Hit, column: u32, row: u32, first: u32, last: u32) -> Seen {
+    // 1 / n by its bits, for n is a power of two: quotients need not be exact.
+    let h = bitcast<f32>((127u - firstTrailingBit(SIDE)) << 23u);
+    let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
+    let shares = look(hit, m, vec2<f32>(h), ASPECT, true, first, last);
+    // The integer part is rounded down; f32(unit) is exact.
+    let unit = ONE / (SIDE * SIDE);
+    let lit = select(u32(shares.lit * f32(unit)), unit, shares.lit == 1.0);
+    let dark = select(u32(shares.dark * f32(unit)), unit, shares.dark == 1.0);
+    return Seen(shares, lit, dark, max(1.0 - shares.lit - shares.dark, 0.0));
+}
+
+fn again(index: u32, column: u32, row: u32, seen: Seen) {
+    let at = atomicAdd(&more.count, 1u);
+    if at < arrayLength(&more.items) {
+        more.items[at] = Part(index, row << 16u | column, seen.shares.first, seen.shares.last, seen.lit, seen.dark, 0u, 0u);
+    }
+}
+
+// Unknown shares of the parts of this group's hit, in 2^-20.
+var<workgroup> unknown_sum: atomic<u32>;
+var<workgroup> unknown_parts: atomic<u32>;
+
+// The first division: a group for each hit, a thread for each of its 8 x 8 parts. All shares are added.
 @compute @workgroup_size(64)
-fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
-         @builtin(local_invocation_index) local: u32) {
-    let parts = SPLIT * SPLIT;
-    let n = SIDE * SPLIT;
-    let items = min(atomicLoad(&work.count), arrayLength(&work.items));
-    let unit = ONE / (n * n);
-    for (var number = group.x * 64u + local; number < items * parts; number += groups.x * 64u) {
-        let item = work.items[number / parts];
-        let part = number % parts;
-        let column = (item.y & 0xffffu) * SPLIT + part % SPLIT;
-        let row = (item.y >> 16u) * SPLIT + part / SPLIT;
-        // 1 / n by its bits, for n is a power of two: quotients need not be exact.
-        let h = bitcast<f32>((127u - firstTrailingBit(n)) << 23u);
-        let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
-        let shares = look(hit_of(item.x), m, vec2<f32>(h), ASPECT, true, item.z, item.w);
-        let unknown = 1.0 - shares.lit - shares.dark;
-        if unknown > REST {
-            let at = atomicAdd(&more.count, 1u);
-            if at < arrayLength(&more.items) {
-                more.items[at] = vec4<u32>(item.x, row << 16u | column, shares.first, shares.last);
-                continue;
-            }
-        }
-        // The integer part is rounded down; f32(unit) is exact.
-        atomicAdd(&lit[item.x], select(u32(shares.lit * f32(unit)), unit, shares.lit == 1.0));
-        atomicAdd(&dark[item.x], select(u32(shares.dark * f32(unit)), unit, shares.dark == 1.0));
+fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    if local == 0u {
+        atomicStore(&unknown_sum, 0u);
+        atomicStore(&unknown_parts, 0u);
+    }
+    workgroupBarrier();
+    let item = hits.items[frame.first + group.x];
+    let column = local % SIDE;
+    let row = local / SIDE;
+    let seen = part_of(hit_of(item.x), column, row, item.z, item.w);
+    if seen.unknown > 0.0 {
+        atomicAdd(&unknown_sum, u32(seen.unknown * 1048576.0) + 1u);
+        atomicAdd(&unknown_parts, 1u);
+    }
+    atomicAdd(&sums[2u * item.x], seen.lit);
+    atomicAdd(&sums[2u * item.x + 1u], seen.dark);
+    workgroupBarrier();
+    // Policy: nothing is looked at again where all that is unknown has room; else half of the room is for parts of which little is unknown.
+    let sum = f32(atomicLoad(&unknown_sum)) * (1.0 / 1048576.0);
+    if sum > ROOM && sum < HOPELESS && seen.unknown * f32(atomicLoad(&unknown_parts)) > 0.5 * ROOM {
+        again(item.x, column, row, seen);
+    }
+}
+
+// What a quarter of the part of the four threads before and behind shares.
+var<workgroup> quarters: array<vec2<u32>, 64>;
+
+// Four threads for each part on the list, as long as the hit's bracket is wider than the tolerance. SIDE is that of the quarters.
+//
+// A part has a floor b: whoever proves a share v > b of it may add v - b. Its quarters prove S = s_1 + ... + s_4: added is max(S, b) - b, and the quarters get the floors
+// s_q + d, d = max(S, b) - S. That is right: if some quarters later prove v_q > s_q + d, then max(S, b) - b and all the v_q - s_q - d are together at most
+// V - b, where V = S + sum of these v_q - s_q is proved of the part.
+@compute @workgroup_size(64)
+fn refine(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let number = (group.x * 64u + local) / 4u;
+    var item = Part(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
+    var wide = false;
+    if number < frame.count {
+        item = work.items[frame.first + number];
+        let known = before[2u * item.index] + before[2u * item.index + 1u];
+        wide = f32(ONE - known) > ROOM * f32(ONE / 64u);
+    }
+    quarters[local] = vec2<u32>(0u);
+    let column = 2u * (item.place & 0xffffu) + (local & 1u);
+    let row = 2u * (item.place >> 16u) + (local >> 1u & 1u);
+    var seen = Seen(Shares(0.0, 0.0, 0u, 0u), 0u, 0u, 0.0);
+    if wide {
+        seen = part_of(hit_of(item.index), column, row, item.first, item.last);
+        quarters[local] = vec2<u32>(seen.lit, seen.dark);
+    }
+    workgroupBarrier();
+    if !wide { return; }
+    let first = local & ~3u;
+    let sum = quarters[first] + quarters[first + 1u] + quarters[first + 2u] + quarters[first + 3u];
+    let floors = vec2<u32>(item.lit, item.dark);
+    let best = max(sum, floors);
+    if local == first {
+        atomicAdd(&sums[2u * item.index], best.x - floors.x);
+        atomicAdd(&sums[2u * item.index + 1u], best.y - floors.y);
+    }
+    // Policy: a part of 32 x 32 has a quarter of the tolerance of 1/255; where nothing at all was proved of any quarter, smaller ones will not help.
+    if seen.unknown > 0.03 && sum.x + sum.y > 0u {
+        seen.lit += best.x - sum.x;
+        seen.dark += best.y - sum.y;
+        again(item.index, column, row, seen);
     }
 }

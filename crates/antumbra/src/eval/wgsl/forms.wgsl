@@ -131,17 +131,33 @@ fn f_range(x: Form) -> vec2<f32> {
     let s = add(r, mul(4.0 * U, add(abs(x.c), r)));
     return vec2<f32>(sub(x.c, s), add(x.c, s));
 }
-// |x| by sign, else a number in [0, |c| + R].
+// About 1/c, c > 0: by its bits (12 % off), each step squares the error. A guess, never a proof.
+fn reciprocal(c: f32) -> f32 {
+    var q = bitcast<f32>(0x7ef311c7u - bitcast<u32>(c));
+    q = mul(q, sub(2.0, mul(c, q)));
+    q = mul(q, sub(2.0, mul(c, q)));
+    return mul(q, sub(2.0, mul(c, q)));
+}
+// |x| by sign; else k x + [0, b] for any k in [-1, 1], best c/r: |x| - k x is convex, not negative, and largest at an end, c + r or c - r.
 fn f_abs(x: Form) -> Form {
     let s = f_sign(x);
     if s > 0 { return x; }
     if s < 0 { return f_neg(x); }
-    let h = 0.5 * mul(add(abs(x.c), f_radius(x)), 1.0 + 8.0 * U);
-    return Form(h, h, vec3<f32>(0.0));
+    let r = f_radius(x);
+    let k = clamp(mul(x.c, reciprocal(r)), -1.0, 1.0);
+    let b = max(mul(sub(1.0, k), add(r, x.c)), mul(add(1.0, k), sub(r, x.c)));
+    let h = mul(0.5 * (1.0 + 8.0 * U), add(b, mul(4.0 * U, r)));
+    return f_addk(f_scale(x, k), h, h);
 }
-// max(x, y) = (x + y + |x - y|)/2.
-fn f_max(x: Form, y: Form) -> Form { return f_scale(f_add(f_add(x, y), f_abs(f_sub(x, y))), 0.5); }
-fn f_min(x: Form, y: Form) -> Form { return f_scale(f_sub(f_add(x, y), f_abs(f_sub(x, y))), 0.5); }
+// The larger one where that is proved; else (x + y + |x - y|)/2.
+fn f_max(x: Form, y: Form) -> Form {
+    let d = f_sub(x, y);
+    let s = f_sign(d);
+    if s > 0 { return x; }
+    if s < 0 { return y; }
+    return f_scale(f_add(f_add(x, y), f_abs(d)), 0.5);
+}
+fn f_min(x: Form, y: Form) -> Form { return f_neg(f_max(f_neg(x), f_neg(y))); }
 
 // f(P), f(P + t D), and g with f(P + t D) = f(P) + t g.
 struct Slope { p: Ball, v: Form, g: Form }
@@ -161,16 +177,24 @@ fn s_mul(x: Slope, y: Slope) -> Slope {
 }
 // v^2 - p^2 = (v - p)(v + p).
 fn s_sqr(x: Slope) -> Slope { return Slope(b_sqr(x.p), f_sqr(x.v), f_mul(x.g, f_addk(x.v, x.p.m, x.p.r))); }
-// +-g where f has one sign at the apex and beyond; else ||v| - |p|| <= |v - p|.
-fn s_abs(x: Slope) -> Slope {
+// The sign that f has at the apex, strictly, and everywhere beyond; 0 if that is not proved.
+fn s_sign(x: Slope) -> i32 {
     let s = f_sign(x.v);
-    let b = b_abs(x.p);
-    if s != 0 && b.m > x.p.r && (x.p.m > 0.0) == (s > 0) {
-        if s > 0 { return x; }
-        return s_neg(x);
-    }
-    let h = mul(add(abs(x.g.c), f_radius(x.g)), 1.0 + 8.0 * U);
-    return Slope(b, f_abs(x.v), Form(0.0, h, vec3<f32>(0.0)));
+    return select(0, s, abs(x.p.m) > x.p.r && (x.p.m > 0.0) == (s > 0));
 }
-fn s_max(x: Slope, y: Slope) -> Slope { return s_scale(s_add(s_add(x, y), s_abs(s_sub(x, y))), 0.5); }
-fn s_min(x: Slope, y: Slope) -> Slope { return s_scale(s_sub(s_add(x, y), s_abs(s_sub(x, y))), 0.5); }
+// +-g where f has one sign; else ||v| - |p|| <= |v - p|.
+fn s_abs(x: Slope) -> Slope {
+    let s = s_sign(x);
+    if s > 0 { return x; }
+    if s < 0 { return s_neg(x); }
+    let h = mul(add(abs(x.g.c), f_radius(x.g)), 1.0 + 8.0 * U);
+    return Slope(b_abs(x.p), f_abs(x.v), Form(0.0, h, vec3<f32>(0.0)));
+}
+fn s_max(x: Slope, y: Slope) -> Slope {
+    let d = s_sub(x, y);
+    let s = s_sign(d);
+    if s > 0 { return x; }
+    if s < 0 { return y; }
+    return s_scale(s_add(s_add(x, y), s_abs(d)), 0.5);
+}
+fn s_min(x: Slope, y: Slope) -> Slope { return s_neg(s_max(s_neg(x), s_neg(y))); }

@@ -1,6 +1,6 @@
 //! Tapes as WGSL: straight-line functions over f32 enclosures, for GPUs whose compilers cannot be trusted with floats.
 //!
-//! The arithmetic is text of its own ([`FORMS`], [`INTERVALS`]), with the reasons for every bound beside it; it needs one
+//! The arithmetic is text of its own ([`FORMS`], [`INTERVALS`], [`FUNCTIONS`]), with the reasons for every bound beside it; it needs one
 //! function from its user, `fn runtime_zero() -> u32`, which must return 0 in a way that no compiler can see. [`function`] writes
 //! a tape as calls of that arithmetic; [`Reach`] proves that nothing in it overflows, without which nothing holds.
 mod reach;
@@ -17,6 +17,10 @@ use std::fmt::Write;
 pub const FORMS: &str = include_str!("forms.wgsl");
 /// Intervals.
 pub const INTERVALS: &str = include_str!("intervals.wgsl");
+/// Quotients, roots and the elementary functions that have an enclosure here: over balls, forms and slopes; needs [`FORMS`].
+pub const FUNCTIONS: &str = include_str!("functions.wgsl");
+/// The same over intervals; needs [`INTERVALS`] and [`FUNCTIONS`].
+pub const INTERVAL_FUNCTIONS: &str = include_str!("interval_functions.wgsl");
 
 /// The least error bound of any form or ball: 2^-100.
 pub const FLOOR: f32 = f32::from_bits((127 - 100) << 23);
@@ -81,6 +85,10 @@ pub fn function(tape: &Tape, name: &str, kind: Kind) -> Result<String, Refusal> 
     }
     let (p, t) = (kind.prefix(), kind.type_name());
     let mut out = format!("fn {name}(x: {t}, y: {t}, z: {t}) -> {t} {{\n");
+    let whole = !needs_functions(tape);
+    if !whole {
+        out.push_str("    lost = false;\n");
+    }
     // Which value a slot holds, and whether that is a constant.
     let mut holds = vec![0; tape.slots()];
     let mut constant: Vec<Option<Interval>> = Vec::with_capacity(clauses.len());
@@ -94,16 +102,50 @@ pub fn function(tape: &Tape, name: &str, kind: Kind) -> Result<String, Refusal> 
             Op::Unary(Unary::Neg) => format!("{p}_neg(v{a})"),
             Op::Unary(Unary::Abs) => format!("{p}_abs(v{a})"),
             Op::Unary(Unary::Sqr) => format!("{p}_sqr(v{a})"),
-            Op::Powi(n) => power(&mut out, kind, i, a, n)?,
+            Op::Unary(op) => format!("{p}_{}(v{a})", unary(op)?),
+            Op::Powi(n) => power(&mut out, kind, i, a, n),
+            Op::Binary(Binary::Pow) => real_power(p, a, constant.get(b).copied().flatten())?,
             Op::Binary(op) => binary(p, op, (a, known(a)), (b, known(b)))?,
-            Op::Unary(op) => return Err(Refusal::Operator(operator(op))),
         };
         writeln!(out, "    let v{i} = {value};").expect("strings take any text");
         constant.push(if let Op::Constant(k) = clause.op { Some(tape.constants()[k as usize]) } else { None });
         holds[clause.out as usize] = i;
     }
+    if !whole {
+        writeln!(out, "    if lost {{ return {p}_unknown(); }}").expect("strings take any text");
+    }
     writeln!(out, "    return v{};\n}}", clauses.len() - 1).expect("strings take any text");
     Ok(out)
+}
+
+/// Whether [`function`]'s text calls [`FUNCTIONS`].
+#[must_use]
+pub fn needs_functions(tape: &Tape) -> bool {
+    tape.clauses().iter().any(|clause| match clause.op {
+        Op::Constant(_) | Op::Axis(_) => false,
+        Op::Unary(op) => !matches!(op, Unary::Neg | Unary::Abs | Unary::Sqr),
+        Op::Powi(n) => n < 0,
+        Op::Binary(op) => matches!(op, Binary::Div | Binary::Pow),
+    })
+}
+
+/// The name of a function that has an enclosure here.
+fn unary(op: Unary) -> Result<&'static str, Refusal> {
+    match op {
+        Unary::Sqrt | Unary::Exp | Unary::Ln | Unary::Sin | Unary::Cos | Unary::Sinh | Unary::Cosh => Ok(operator(op)),
+        _ => Err(Refusal::Operator(operator(op))),
+    }
+}
+
+/// A power with a constant real exponent, not 0; its sign must be known.
+fn real_power(p: &str, a: usize, exponent: Option<Interval>) -> Result<String, Refusal> {
+    let positive = |k: Interval| {
+        let (m, r) = ball(k);
+        (m > r).then(|| format!("{p}_real(v{a}, {}, {})", number(m), number(r)))
+    };
+    let inverse = |k: Interval| Some(format!("{p}_recip({})", positive(-k)?));
+    let found = exponent.and_then(|k| positive(k).or_else(|| inverse(k)));
+    found.ok_or(Refusal::Operator("^ with an exponent that varies, or is about 0"))
 }
 
 /// A sum, difference or product with a constant has cheaper forms.
@@ -119,14 +161,16 @@ fn binary(
         (Binary::Add, Some(k), _) => shifted(p, b, k),
         (Binary::Mul, _, Some(k)) => scaled(p, a, k),
         (Binary::Mul, Some(k), _) => scaled(p, b, k),
+        (Binary::Div, _, Some(k)) if !k.possibly_zero() => scaled(p, a, Interval::ONE / k),
+        (Binary::Div, ..) => format!("{p}_div(v{a}, v{b})"),
         (Binary::Add, ..) => format!("{p}_add(v{a}, v{b})"),
         (Binary::Sub, ..) => format!("{p}_sub(v{a}, v{b})"),
         (Binary::Mul, ..) => format!("{p}_mul(v{a}, v{b})"),
         (Binary::Min, ..) => format!("{p}_min(v{a}, v{b})"),
         (Binary::Max, ..) => format!("{p}_max(v{a}, v{b})"),
-        (Binary::Div, ..) => return Err(Refusal::Operator("/")),
-        (Binary::Pow, ..) => return Err(Refusal::Operator("^ with a real exponent")),
-        (Binary::Atan2, ..) => return Err(Refusal::Operator("atan2")),
+        (Binary::Pow | Binary::Atan2, ..) => {
+            return Err(Refusal::Operator(if op == Binary::Pow { "^" } else { "atan2" }));
+        }
     })
 }
 
@@ -146,17 +190,15 @@ fn scaled(p: &str, a: usize, k: Interval) -> String {
 }
 
 /// Powers by squaring, from the highest bit down; the steps before the last are written as statements.
-fn power(out: &mut String, kind: Kind, i: usize, a: usize, n: i32) -> Result<String, Refusal> {
+fn power(out: &mut String, kind: Kind, i: usize, a: usize, n: i32) -> String {
     let p = kind.prefix();
-    if n < 0 {
-        return Err(Refusal::Operator("^ with a negative exponent"));
-    }
     if n == 0 {
-        return Ok(literal(kind, Interval::ONE));
+        return literal(kind, Interval::ONE);
     }
+    let inverse = |value: String| if n < 0 { format!("{p}_recip({value})") } else { value };
     let n = n.unsigned_abs();
     if kind == Kind::Interval && n > 2 {
-        return Ok(format!("i_pow(v{a}, {n}u)"));
+        return inverse(format!("i_pow(v{a}, {n}u)"));
     }
     let mut value = format!("v{a}");
     for bit in (0..n.ilog2()).rev() {
@@ -167,7 +209,7 @@ fn power(out: &mut String, kind: Kind, i: usize, a: usize, n: i32) -> Result<Str
             value = format!("v{i}_{bit}x");
         }
     }
-    Ok(value)
+    inverse(value)
 }
 
 /// A constant as a number of the kind.
