@@ -53,7 +53,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
 }
 
 /// Work between two looks at the progress bar.
-const SLICE: Duration = Duration::from_millis(100);
+const SLICE: Duration = Duration::from_millis(250);
 
 /// How the work on a picture ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -75,7 +75,11 @@ fn pursue(
     between: &mut dyn FnMut(&Renderer),
 ) -> End {
     let flag = renderer.stop_flag();
-    while !renderer.refine(SLICE) {
+    let slice = || match deadline {
+        Some(deadline) => SLICE.min(deadline.saturating_duration_since(Instant::now())),
+        None => SLICE,
+    };
+    while !renderer.refine(slice()) {
         if let Some(progress) = progress {
             progress.show(renderer);
         }

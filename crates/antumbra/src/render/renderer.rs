@@ -19,7 +19,7 @@ use serde::{Deserialize, Serialize};
 use std::io::{Read, Seek, Write};
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
 use std::time::Duration;
 
 /// Draws one scene. Ask it to [`refine`](Self::refine) until it is done; look at [`frame`](Self::frame) and
@@ -220,7 +220,7 @@ impl Renderer {
         while !self.rests() {
             let step = (self.clock)();
             let stage = self.stage;
-            self.step();
+            self.step(begin.saturating_add(budget));
             let seconds = self.since(step).as_secs_f64();
             let stats = &mut self.book.stats;
             match stage {
@@ -339,7 +339,8 @@ impl Renderer {
     }
 
     /// A few tiles per thread: so stopping is quick. Threads wait for the slowest of a batch.
-    fn step(&mut self) {
+    /// One batch of tiles, or what comes between them. After the deadline no tile is begun but one for each thread.
+    fn step(&mut self, deadline: Duration) {
         match self.stage {
             Stage::Grid => {
                 if matches!(self.task.method, Method::Paper(_)) {
@@ -351,12 +352,18 @@ impl Renderer {
             Stage::Done | Stage::Parted => return,
             Stage::Primary | Stage::Shadow | Stage::Edges => {}
         }
-        let end = (self.next_tile + 4 * self.crew.size()).min(self.turns());
-        let batch = self.next_tile..end;
+        // Threads wait for each other at the end of a batch, and its results are kept until then: those of shadows, whose tiles
+        // differ most, are small.
+        let most = match self.stage {
+            Stage::Primary => 32,
+            _ => 256,
+        };
+        let batch =
+            Batch { tiles: self.next_tile..(self.next_tile + most * self.crew.size()).min(self.turns()), deadline };
         self.next_tile += match self.stage {
-            Stage::Primary => self.primary(batch),
-            Stage::Shadow => self.shadows(batch),
-            _ => self.creases(batch),
+            Stage::Primary => self.primary(&batch),
+            Stage::Shadow => self.shadows(&batch),
+            _ => self.creases(&batch),
         };
         if self.next_tile == self.turns() {
             self.next_tile = 0;
@@ -374,7 +381,7 @@ impl Renderer {
     }
 
     /// Finds the hits of tiles and tells how many of them are done: all, unless it is asked to stop.
-    fn primary(&mut self, batch: Range<usize>) -> usize {
+    fn primary(&mut self, batch: &Batch) -> usize {
         let this = &*self;
         let found = this.each(batch, |turn| match this.task.method {
             Method::Certified => {
@@ -404,7 +411,7 @@ impl Renderer {
     }
 
     /// Finds the shadows of tiles and tells how many of them are done.
-    fn shadows(&mut self, batch: Range<usize>) -> usize {
+    fn shadows(&mut self, batch: &Batch) -> usize {
         let this = &*self;
         let found = this.each(batch, |turn| match this.task.method {
             Method::Certified => {
@@ -431,9 +438,9 @@ impl Renderer {
     }
 
     /// Looks closer at inner edges in tiles and tells how many of them are done. The paper's pictures have none.
-    fn creases(&mut self, batch: Range<usize>) -> usize {
+    fn creases(&mut self, batch: &Batch) -> usize {
         if self.task.method != Method::Certified {
-            return batch.len();
+            return batch.tiles.len();
         }
         let this = &*self;
         let found = this.each(batch, |turn| {
@@ -453,13 +460,38 @@ impl Renderer {
         crew.install(|| book.put_colors(task, pixels, lit));
     }
 
-    /// The work of the tiles of a batch in their order, up to the first that was not begun because of the stop flag.
-    fn each<T: Send>(&self, batch: Range<usize>, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        let Part { number, of } = self.part;
-        let begin = |turn| (!self.stop.load(Ordering::Relaxed)).then(|| work(number + turn * of));
-        let found: Vec<Option<T>> = self.crew.install(|| batch.into_par_iter().map(begin).collect());
-        found.into_iter().map_while(|tile| tile).collect()
+    /// The work of the tiles of a batch, in their order, as far as it was done. Each thread takes the next tile when it has done one:
+    /// whatever is begun is done, so what is done has no gaps.
+    fn each<T: Send>(&self, batch: &Batch, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
+        let (Part { number, of }, Range { start, end }) = (self.part, batch.tiles.clone());
+        let next = AtomicUsize::new(start);
+        let threads = self.crew.size();
+        let go_on = || {
+            let first = next.load(Ordering::Relaxed) < start + threads;
+            !self.stop.load(Ordering::Relaxed) && (first || (self.clock)() < batch.deadline)
+        };
+        let tiles = |_| {
+            let mut done = Vec::new();
+            while go_on() {
+                let turn = next.fetch_add(1, Ordering::Relaxed);
+                if turn >= end {
+                    break;
+                }
+                done.push((turn, work(number + turn * of)));
+            }
+            done
+        };
+        let of_threads = (0..threads).into_par_iter().with_max_len(1).map(tiles);
+        let mut done: Vec<(usize, T)> = self.crew.install(|| of_threads.flatten_iter().collect());
+        done.sort_unstable_by_key(|(turn, _)| *turn);
+        done.into_iter().map(|(_, tile)| tile).collect()
     }
+}
+
+/// Tiles to be worked on, and when to stop beginning with others.
+struct Batch {
+    tiles: Range<usize>,
+    deadline: Duration,
 }
 
 /// How much longer shadows take than hits: the certified method on the presets, between 0.2 and 2.5.
