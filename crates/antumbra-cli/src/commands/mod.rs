@@ -11,6 +11,7 @@ mod paper;
 mod record;
 mod render;
 mod scene;
+mod view;
 
 use std::{
     sync::atomic::Ordering,
@@ -43,6 +44,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Command::Paper(args) => paper::run(&PaperOptions::new(args)),
         Command::Audit(args) => audit::run(&AuditOptions::new(args)?),
         Command::Gallery(args) => gallery::run(&GalleryOptions::new(args)?),
+        Command::View(args) => view::run(&args),
         Command::Scene(command) => scene::run(&command),
         Command::Info => info::run(),
         Command::Completions(args) => manual::completions(&args),

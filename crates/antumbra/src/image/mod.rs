@@ -19,7 +19,7 @@ mod plane;
 mod png;
 
 pub use self::{
-    color::{code_8, code_16, linear_from_srgb, srgb_from_linear},
+    color::{code_8, code_16, codes_8, linear_from_srgb, srgb_from_linear},
     exr::exr_bytes,
     movie::Movie,
     npy::{npy_bytes, plane_from_npy},

@@ -24,7 +24,7 @@ mod visibility;
 
 pub use frame::{Frame, LightPlanes};
 pub use given::{Given, GivenPixel, Question};
-pub use overlay::Overlay;
+pub use overlay::{Legend, Overlay};
 pub use renderer::Renderer;
 pub use spec::{Error, Method, RenderSpec, RunSpec};
 pub use state::{StateError, fingerprint};

@@ -32,6 +32,15 @@ impl Overlay {
 /// Colour (sRGB) and meaning of one kind of pixel.
 type Entry = ([u8; 3], String);
 
+/// What an overlay shows, for those who draw it themselves.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Legend {
+    /// Colour (sRGB) and meaning of each kind of pixel.
+    pub entries: Vec<([u8; 3], String)>,
+    /// The kind of each pixel of the frame: an index among the entries.
+    pub kinds: Vec<usize>,
+}
+
 /// Height of a line of the legend, and size of a letter.
 const LINE: usize = 14;
 const LETTER: usize = 8;
@@ -47,16 +56,7 @@ impl Frame {
     /// # Errors
     /// None for a frame whose planes have the lengths that [`Frame::new`] gave them; the type is that of planes.
     pub fn overlay(&self, overlay: Overlay, tolerance: f64) -> Result<Planes, Error> {
-        let (entries, kinds) = match overlay {
-            Overlay::Verdict => self.by_verdict(),
-            Overlay::Shadow => self.by_shadow(tolerance),
-            Overlay::Cost => self.by_scale("evaluations", |i| f64::from(self.cost[i]), |e| format!("{}", 1_u64 << e)),
-            Overlay::Width => {
-                let of = |l: &LightPlanes, i: usize| l.visible_hi[i] - l.visible_lo[i];
-                let width = |i: usize| self.lights.iter().map(|l| of(l, i)).fold(0.0, f64::max) * 65_536.0;
-                self.by_scale("bracket width", width, |e| format!("2^{}", e as i32 - 16))
-            }
-        };
+        let Legend { entries, kinds } = self.legend(overlay, tolerance);
         let lines: Vec<String> = entries
             .iter()
             .enumerate()
@@ -82,6 +82,22 @@ impl Frame {
         let mut planes = Planes::new();
         planes.add(Plane::with_channels(COLOR_PLANE, rows, width, 3, linear)?)?;
         Ok(planes)
+    }
+
+    /// The kinds of the pixels and their legend.
+    #[must_use]
+    pub fn legend(&self, overlay: Overlay, tolerance: f64) -> Legend {
+        let (entries, kinds) = match overlay {
+            Overlay::Verdict => self.by_verdict(),
+            Overlay::Shadow => self.by_shadow(tolerance),
+            Overlay::Cost => self.by_scale("evaluations", |i| f64::from(self.cost[i]), |e| format!("{}", 1_u64 << e)),
+            Overlay::Width => {
+                let of = |l: &LightPlanes, i: usize| l.visible_hi[i] - l.visible_lo[i];
+                let width = |i: usize| self.lights.iter().map(|l| of(l, i)).fold(0.0, f64::max) * 65_536.0;
+                self.by_scale("bracket width", width, |e| format!("2^{}", e as i32 - 16))
+            }
+        };
+        Legend { entries, kinds }
     }
 
     fn by_verdict(&self) -> (Vec<Entry>, Vec<usize>) {

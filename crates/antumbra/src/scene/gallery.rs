@@ -38,8 +38,21 @@ impl GalleryEntry {
     }
 }
 
+/// The scene of that name as a file, with its parameters where it has some: what [`named`] reads.
+///
+/// # Errors
+/// None, as for [`GalleryEntry::scene`].
+#[must_use]
+pub fn file_named(name: &str) -> Option<Result<SceneFile, FileError>> {
+    let written = GALLERY.iter().find(|e| e.name == name).and_then(|e| match e.content {
+        Content::File(text) => Some(SceneFile::parse(text)),
+        Content::Preset { .. } => None,
+    });
+    written.or_else(|| named(name).map(|scene| scene.map(|scene| SceneFile::of(&scene))))
+}
+
 fn of_preset(name: &str) -> Option<Result<Scene, FileError>> {
-    let refuse = |e: super::Error| FileError::Formula { key: format!("preset {name}"), message: e.to_string() };
+    let refuse = |e: super::Error| FileError::Formula { key: format!("preset {name}"), message: e.to_string(), place: None };
     Some(preset(name)?.map_err(refuse))
 }
 

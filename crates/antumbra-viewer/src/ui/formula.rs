@@ -1,0 +1,163 @@
+//! The left panel: the formula with its errors, the sliders, the gallery.
+use super::{App, Note, bar::name, theme};
+use eframe::egui::{
+    self, Color32, FontSelection, RichText, Stroke,
+    text::{LayoutJob, TextFormat},
+};
+use std::ops::Range;
+
+impl App {
+    pub(super) fn left(&mut self, ui: &mut egui::Ui) {
+        self.formula(ui);
+        self.sliders(ui);
+        ui.add_space(6.0);
+        ui.separator();
+        if let Some(name) = self.gallery.show(ui, &self.model.document().name) {
+            self.finder.ask(name);
+        }
+    }
+
+    fn formula(&mut self, ui: &mut egui::Ui) {
+        let surfaces = self.model.document().file.surface.len();
+        self.surface = self.surface.min(surfaces.saturating_sub(1));
+        ui.horizontal(|ui| {
+            ui.label(RichText::new("Formula").strong());
+            if surfaces > 1 {
+                for k in 0..surfaces {
+                    if ui.selectable_label(self.surface == k, format!("{}", k + 1)).clicked() {
+                        self.surface = k;
+                    }
+                }
+            }
+        });
+        let written = self.model.document().file.surface.get(self.surface).map(|s| s.formula.clone()).unwrap_or_default();
+        if self.text != written {
+            self.text = written;
+        }
+        let revision = self.model.revision();
+        let refusal = self.refusal.as_ref().filter(|(r, _)| *r == revision).map(|(_, refusal)| refusal.clone());
+        let place = refusal.as_ref().and_then(|r| r.place.clone()).filter(|(k, _)| *k == self.surface).map(|(_, p)| p);
+        let mut layout = |ui: &egui::Ui, text: &dyn egui::TextBuffer, width: f32| {
+            let font = FontSelection::from(egui::TextStyle::Monospace).resolve(ui.style());
+            let mut job = marked(text.as_str(), place.clone(), &TextFormat::simple(font, theme::INK));
+            job.wrap.max_width = width;
+            ui.fonts_mut(|fonts| fonts.layout_job(job))
+        };
+        let mut text = std::mem::take(&mut self.text);
+        let field = egui::ScrollArea::vertical().id_salt("formula").max_height(150.0).show(ui, |ui| {
+            let edit = egui::TextEdit::multiline(&mut text)
+                .font(egui::TextStyle::Monospace)
+                .desired_rows(3)
+                .desired_width(f32::INFINITY)
+                .layouter(&mut layout);
+            ui.add(edit)
+        });
+        name(&field.inner, "Formula");
+        if field.inner.changed() {
+            self.player.stop();
+            self.model.set_formula(self.surface, &text);
+        }
+        if field.inner.lost_focus() {
+            self.model.settle();
+        }
+        self.text = text;
+        if let Some(refusal) = &refusal {
+            egui::ScrollArea::both().id_salt("error").max_height(150.0).show(ui, |ui| {
+                let message = RichText::new(&refusal.message).monospace().size(12.0).color(theme::BAD);
+                ui.add(egui::Label::new(message).extend());
+            });
+            if !self.sides.is_empty() {
+                ui.label(RichText::new("The picture is the last one that could be drawn.").small().color(theme::FAINT));
+            }
+        }
+        if let Some(about) = &self.model.document().file.about {
+            let (credit, history) = (about.credit(), about.history.clone());
+            if !credit.is_empty() {
+                ui.label(RichText::new(credit).small().color(theme::ACCENT));
+            }
+            if let Some(history) = history {
+                ui.label(RichText::new(history).small().color(theme::FAINT));
+            }
+        }
+    }
+
+    fn sliders(&mut self, ui: &mut egui::Ui) {
+        let sliders = self.model.sliders().to_vec();
+        if sliders.is_empty() {
+            return;
+        }
+        ui.add_space(6.0);
+        ui.label(RichText::new("Parameters").strong());
+        for slider in sliders {
+            ui.horizontal(|ui| {
+                let plays = self.player.plays(&slider.name);
+                let label = if plays { "⏸" } else { "▶" };
+                let hover = if plays { format!("Stop {}", slider.name) } else { format!("Move {}", slider.name) };
+                let button = ui.small_button(label).on_hover_text(&hover);
+                name(&button, &hover);
+                if button.clicked() {
+                    self.player.toggle(&self.model, &slider.name);
+                }
+                let mut value = slider.value;
+                let [lo, hi] = slider.range;
+                ui.spacing_mut().slider_width = (ui.available_width() - 130.0).max(60.0);
+                let field = ui.add(egui::Slider::new(&mut value, lo..=hi).max_decimals(4).text(&slider.name));
+                if field.changed() && value != slider.value {
+                    if !self.player.plays(&slider.name) {
+                        self.player.stop();
+                    }
+                    if let Err(error) = self.model.set_parameter(&slider.name, value) {
+                        self.note = Some(Note::Bad(error));
+                    }
+                }
+                if field.drag_stopped() || field.lost_focus() {
+                    self.model.settle();
+                }
+            });
+        }
+    }
+}
+
+/// The text with a line under a place; under the last letter where the place is the end.
+fn marked(text: &str, place: Option<Range<usize>>, plain: &TextFormat) -> LayoutJob {
+    let mut job = LayoutJob::default();
+    let Some(place) = place else {
+        job.append(text, 0.0, plain.clone());
+        return job;
+    };
+    let floor = |k: usize| (0..=k.min(text.len())).rev().find(|k| text.is_char_boundary(*k)).unwrap_or(0);
+    let ceil = |k: usize| (k.min(text.len())..=text.len()).find(|k| text.is_char_boundary(*k)).unwrap_or(text.len());
+    let mut start = floor(place.start);
+    if start == text.len() {
+        start = text.char_indices().next_back().map_or(0, |(k, _)| k);
+    }
+    let end = ceil(place.end.max(start + 1));
+    let bad = TextFormat {
+        underline: Stroke::new(2.0, theme::BAD),
+        background: Color32::from_rgba_unmultiplied(244, 115, 104, 36),
+        ..plain.clone()
+    };
+    job.append(&text[..start], 0.0, plain.clone());
+    job.append(&text[start..end], 0.0, bad);
+    job.append(&text[end..], 0.0, plain.clone());
+    job
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn places_are_marked_whatever_the_text() {
+        let plain = TextFormat::default();
+        let parts = |text: &str, place| {
+            let job = marked(text, Some(place), &plain);
+            job.sections.iter().map(|s| text[s.byte_range.start.0..s.byte_range.end.0].to_owned()).collect::<Vec<_>>()
+        };
+        assert_eq!(parts("x + $ y", 4..5), ["x + ", "$", " y"]);
+        assert_eq!(parts("x +", 3..3), ["x ", "+"], "at the end");
+        assert_eq!(parts("π×", 1..1), ["π", "×"], "inside of a letter");
+        assert_eq!(parts("x", 7..90), ["x"]);
+        assert!(parts("", 0..1).is_empty() || parts("", 0..1).concat().is_empty());
+    }
+}
