@@ -7,11 +7,8 @@ use antumbra_viewer::{
     host::{Found, Host, Place, SharedHost},
     ui::App,
 };
-use eframe::egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2};
-use egui_kittest::{
-    Harness,
-    kittest::{NodeT, Queryable},
-};
+use eframe::egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2};
+use egui_kittest::{Harness, kittest::Queryable};
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
@@ -76,7 +73,7 @@ fn until(window: &mut Window, what: &str, so: impl Fn(&Window) -> bool) {
 }
 
 fn has(window: &Window, text: &str) -> bool {
-    window.query_all_by(|node| node.accesskit_node().label().is_some_and(|l| l.contains(text)) || node.value().is_some_and(|v| v.contains(text))).next().is_some()
+    window.query_all_by(|node| node.label().is_some_and(|l| l.contains(text)) || node.value().is_some_and(|v| v.contains(text))).next().is_some()
 }
 
 fn button(window: &Window, pos: Pos2, pressed: bool, modifiers: Modifiers) {
@@ -84,7 +81,7 @@ fn button(window: &Window, pos: Pos2, pressed: bool, modifiers: Modifiers) {
 }
 
 fn drag(window: &mut Window, from: Pos2, by: Vec2, modifiers: Modifiers) {
-    window.input_mut().modifiers = modifiers;
+    window.event(Event::ModifiersChanged(modifiers));
     window.event(Event::PointerMoved(from));
     window.step();
     button(window, from, true, modifiers);
@@ -95,7 +92,7 @@ fn drag(window: &mut Window, from: Pos2, by: Vec2, modifiers: Modifiers) {
     }
     button(window, from + by, false, modifiers);
     window.step();
-    window.input_mut().modifiers = Modifiers::NONE;
+    window.event(Event::ModifiersChanged(Modifiers::NONE));
     window.step();
 }
 
@@ -108,6 +105,18 @@ fn it_draws_to_the_proof_and_says_so() {
     let window = ball();
     assert!(has(&window, "pixels proved") && has(&window, "done in"));
     assert_eq!(window.state().model().document().file.surface.len(), 1);
+    assert_eq!(window.state().model().ways(), [false, false], "nobody has done anything");
+}
+
+#[test]
+fn no_scene_is_changed_by_being_looked_at() {
+    for name in ["chubs", "links", "mcmullen"] {
+        let file = file_named(name).unwrap().unwrap();
+        let mut window = window(Found { name: name.to_owned(), file: file.clone(), own: false });
+        until(&mut window, "the scene", |w| w.state().model().scene().is_some());
+        window.run_steps(5);
+        assert_eq!(window.state().model().document().file, file, "{name}");
+    }
 }
 
 #[test]
@@ -164,6 +173,7 @@ fn the_wheel_and_keys_move_the_camera() {
         unit: MouseWheelUnit::Point,
         delta: Vec2::new(0.0, 80.0),
         phase: TouchPhase::Move,
+        source: MouseWheelSource::Wheel,
         modifiers: Modifiers::NONE,
     });
     window.run_steps(20);

@@ -3,8 +3,9 @@
 use crate::bench::Bench;
 use predicates::str::contains;
 
-const COMMANDS: [&[&str]; 12] = [
+const COMMANDS: [&[&str]; 13] = [
     &["render"],
+    &["view"],
     &["compare"],
     &["paper"],
     &["audit"],

@@ -12,14 +12,14 @@ impl App {
     pub(super) fn controls(&mut self, ui: &mut egui::Ui) {
         section(ui, "View");
         self.camera(ui);
+        section(ui, "Show");
+        self.shown(ui);
+        section(ui, "Proof");
+        self.proof(ui);
         section(ui, "Light");
         self.lights(ui);
         section(ui, "Clip");
         self.clip(ui);
-        section(ui, "Proof");
-        self.proof(ui);
-        section(ui, "Show");
-        self.shown(ui);
     }
 
     fn camera(&mut self, ui: &mut egui::Ui) {
@@ -27,14 +27,13 @@ impl App {
             for (tool, label, hover) in [
                 (Tool::Orbit, "Turn", "Dragging turns the camera (O)"),
                 (Tool::Pan, "Move", "Dragging moves it aside (M, or the right button)"),
-                (Tool::Light, "Light", "Dragging turns the light (L, or Ctrl)"),
+                (Tool::Light, "Sun", "Dragging turns the light (L, or Ctrl)"),
             ] {
                 if ui.selectable_label(self.tool == tool, label).on_hover_text(hover).clicked() {
                     self.tool = tool;
                 }
             }
-        });
-        ui.horizontal(|ui| {
+            ui.separator();
             if ui.button("Reset").on_hover_text("As it was opened (R)").clicked() {
                 self.model.reset_camera();
             }
@@ -54,7 +53,7 @@ impl App {
         });
         if !orbit.parallel {
             let mut angle = orbit.fov_deg;
-            let field = ui.add(egui::Slider::new(&mut angle, 5.0..=100.0).suffix("°").max_decimals(1).text("angle"));
+            let field = ui.add(slider(&mut angle, 5.0..=100.0).suffix("°").max_decimals(1).text("angle"));
             if field.changed() {
                 self.model.move_camera(|orbit| Orbit { fov_deg: angle, ..orbit });
             }
@@ -80,13 +79,13 @@ impl App {
         ui.horizontal(|ui| {
             self.light_pad(ui);
             ui.vertical(|ui| {
-                ui.spacing_mut().slider_width = 74.0;
+                ui.spacing_mut().slider_width = 70.0;
                 let side = side(&light);
                 let mut size = side;
                 let scale = self.model.scene().map_or(1.0, |scene| scene.scale());
                 let range = 0.01 * scale..=8.0 * scale;
                 ui.label(RichText::new("size").small().color(theme::FAINT));
-                let field = ui.add(egui::Slider::new(&mut size, range).logarithmic(true).max_decimals(3));
+                let field = ui.add(slider(&mut size, range).logarithmic(true).max_decimals(3));
                 name(&field, "Size of the light");
                 if field.changed() && size > 0.0 {
                     self.model.change_light(k, |light| resize(light, size / side));
@@ -96,7 +95,7 @@ impl App {
                 if let Some(place) = self.model.light_direction(k) {
                     let mut length = place.length;
                     let range = 0.5 * scale..=30.0 * scale;
-                    let field = ui.add(egui::Slider::new(&mut length, range).logarithmic(true).max_decimals(3));
+                    let field = ui.add(slider(&mut length, range).logarithmic(true).max_decimals(3));
                     name(&field, "Distance of the light");
                     if field.changed() {
                         self.model.place_light(k, antumbra::geom::Polar { length, ..place });
@@ -105,7 +104,7 @@ impl App {
                 }
                 ui.label(RichText::new("strength").small().color(theme::FAINT));
                 let mut strength = light.strength.unwrap_or(1.0);
-                let field = ui.add(egui::Slider::new(&mut strength, 0.0..=3.0).max_decimals(2));
+                let field = ui.add(slider(&mut strength, 0.0..=3.0).max_decimals(2));
                 name(&field, "Strength of the light");
                 if field.changed() {
                     self.model.change_light(k, |light| light.strength = Some(strength));
@@ -240,14 +239,14 @@ impl App {
             self.model.set_methods(method, beside);
         }
         let mut bits = -self.model.document().tolerance().log2();
-        let slider = egui::Slider::new(&mut bits, 2.0..=16.0)
+        let field = slider(&mut bits, 2.0..=16.0)
             .custom_formatter(|bits, _| format!("1/{:.0}", bits.exp2()))
             .custom_parser(|text| {
                 let number = text.trim().strip_prefix("1/").map_or_else(|| text.trim().parse::<f64>().map(f64::recip), str::parse);
                 number.ok().filter(|n| *n >= 1.0).map(f64::log2)
             })
             .text("tolerance");
-        let field = ui.add(slider).on_hover_text("How wide a bracket of the visible light may be");
+        let field = ui.add(field).on_hover_text("How wide a bracket of the visible light may be");
         if field.changed() {
             self.model.set_tolerance((-bits).exp2().clamp(1e-9, 1.0));
         }
@@ -275,6 +274,11 @@ impl App {
             self.model.settle();
         }
     }
+}
+
+/// A slider that leaves a value alone until a hand moves it.
+fn slider(value: &mut f64, range: std::ops::RangeInclusive<f64>) -> egui::Slider<'_> {
+    egui::Slider::new(value, range).clamping(egui::SliderClamping::Never)
 }
 
 fn section(ui: &mut egui::Ui, title: &str) {

@@ -1,10 +1,14 @@
 //! The left panel: the formula with its errors, the sliders, the gallery.
 use super::{App, Note, bar::name, theme};
+use crate::worker::Refusal;
 use eframe::egui::{
     self, Color32, FontSelection, RichText, Stroke,
     text::{LayoutJob, TextFormat},
 };
 use std::ops::Range;
+
+/// Most bytes of a formula that one edits: longer ones would hold up the window.
+const MOST: usize = 20_000;
 
 impl App {
     pub(super) fn left(&mut self, ui: &mut egui::Ui) {
@@ -43,11 +47,17 @@ impl App {
             job.wrap.max_width = width;
             ui.fonts_mut(|fonts| fonts.layout_job(job))
         };
+        if self.text.len() > MOST {
+            let words = format!("This formula has {} bytes: it is drawn, but too long to be edited here.", self.text.len());
+            ui.label(RichText::new(words).color(theme::FAINT));
+            return self.below(ui, refusal.as_ref());
+        }
         let mut text = std::mem::take(&mut self.text);
         let field = egui::ScrollArea::vertical().id_salt("formula").max_height(150.0).show(ui, |ui| {
             let edit = egui::TextEdit::multiline(&mut text)
                 .font(egui::TextStyle::Monospace)
                 .desired_rows(3)
+                .char_limit(MOST)
                 .desired_width(f32::INFINITY)
                 .layouter(&mut layout);
             ui.add(edit)
@@ -61,7 +71,12 @@ impl App {
             self.model.settle();
         }
         self.text = text;
-        if let Some(refusal) = &refusal {
+        self.below(ui, refusal.as_ref());
+    }
+
+    /// What is wrong with the formula, and what there is to say about it.
+    fn below(&self, ui: &mut egui::Ui, refusal: Option<&Refusal>) {
+        if let Some(refusal) = refusal {
             egui::ScrollArea::both().id_salt("error").max_height(150.0).show(ui, |ui| {
                 let message = RichText::new(&refusal.message).monospace().size(12.0).color(theme::BAD);
                 ui.add(egui::Label::new(message).extend());
@@ -101,7 +116,7 @@ impl App {
                 let mut value = slider.value;
                 let [lo, hi] = slider.range;
                 ui.spacing_mut().slider_width = (ui.available_width() - 130.0).max(60.0);
-                let field = ui.add(egui::Slider::new(&mut value, lo..=hi).max_decimals(4).text(&slider.name));
+                let field = ui.add(egui::Slider::new(&mut value, lo..=hi).clamping(egui::SliderClamping::Edits).max_decimals(4).text(&slider.name));
                 if field.changed() && value != slider.value {
                     if !self.player.plays(&slider.name) {
                         self.player.stop();

@@ -159,7 +159,7 @@ impl App {
             ui,
             |ui| self.left(ui),
         );
-        egui::Panel::right("controls").frame(theme::panel()).resizable(false).exact_size(268.0).show(ui, |ui| {
+        egui::Panel::right("controls").frame(theme::panel()).resizable(false).exact_size(280.0).show(ui, |ui| {
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.controls(ui));
         });
         egui::CentralPanel::default().frame(theme::stage()).show(ui, |ui| self.canvas(ui));
