@@ -32,8 +32,12 @@ fn main() -> Result<(), Box<dyn Error>> {
         _ => vec!["orthocircle", "chubs", "kusner", "mcmullen"],
     };
     let threads = std::thread::available_parallelism()?;
-    println!("{size} x {size}, certified, tolerance 1/255, {threads} threads; medians of {DRAGS}, in brackets the worst\n");
-    println!("| scene | one step to its picture | its size | hand in motion: pictures per second, latency | all proved after | window frame, worst |");
+    println!(
+        "{size} x {size}, certified, tolerance 1/255, {threads} threads; medians of {DRAGS}, in brackets the worst\n"
+    );
+    println!(
+        "| scene | one step to its picture | its size | hand in motion: pictures per second, latency | all proved after | window frame, worst |"
+    );
     println!("|---|---|---|---|---|---|");
     for scene in scenes {
         let steps = steps(scene, size)?;
@@ -191,10 +195,15 @@ fn frames(name: &str) -> Result<(f64, u32), Box<dyn Error>> {
         // A hand turns the picture half of the time.
         let angle = begun.elapsed().as_secs_f32() * 3.0;
         let at = egui::pos2(640.0 + 120.0 * angle.cos(), 400.0 + 60.0 * angle.sin());
-        let down = begun.elapsed().as_secs() % 2 == 0;
+        let down = begun.elapsed().as_secs().is_multiple_of(2);
         window.event(egui::Event::PointerMoved(at));
         let modifiers = egui::Modifiers::NONE;
-        window.event(egui::Event::PointerButton { pos: at, button: egui::PointerButton::Primary, pressed: down, modifiers });
+        window.event(egui::Event::PointerButton {
+            pos: at,
+            button: egui::PointerButton::Primary,
+            pressed: down,
+            modifiers,
+        });
         let frame = Instant::now();
         window.step();
         let output = window.output();

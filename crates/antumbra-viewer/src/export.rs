@@ -65,7 +65,12 @@ impl Export {
     ///
     /// # Errors
     /// In words: where the path cannot be written or names no format, the size is none, or there is no thread.
-    pub fn begin(order: Order, host: &SharedHost, run: RunSpec, wake: impl Fn() + Send + 'static) -> Result<Self, String> {
+    pub fn begin(
+        order: Order,
+        host: &SharedHost,
+        run: RunSpec,
+        wake: impl Fn() + Send + 'static,
+    ) -> Result<Self, String> {
         let format = order.path.extension().map(|e| e.to_string_lossy().to_lowercase()).unwrap_or_default();
         if !["png", "exr"].contains(&format.as_str()) {
             return Err(format!("`{}` has no format that is known: end it in .png or .exr", order.path.display()));

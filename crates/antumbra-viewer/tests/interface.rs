@@ -7,7 +7,9 @@ use antumbra_viewer::{
     host::{Found, Host, Place, SharedHost},
     ui::App,
 };
-use eframe::egui::{Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, TouchPhase, Vec2};
+use eframe::egui::{
+    Event, Key, Modifiers, MouseWheelSource, MouseWheelUnit, PointerButton, Pos2, Role, TouchPhase, Vec2,
+};
 use egui_kittest::{Harness, kittest::Queryable};
 use std::{
     path::{Path, PathBuf},
@@ -73,7 +75,12 @@ fn until(window: &mut Window, what: &str, so: impl Fn(&Window) -> bool) {
 }
 
 fn has(window: &Window, text: &str) -> bool {
-    window.query_all_by(|node| node.label().is_some_and(|l| l.contains(text)) || node.value().is_some_and(|v| v.contains(text))).next().is_some()
+    window
+        .query_all_by(|node| {
+            node.label().is_some_and(|l| l.contains(text)) || node.value().is_some_and(|v| v.contains(text))
+        })
+        .next()
+        .is_some()
 }
 
 fn button(window: &Window, pos: Pos2, pressed: bool, modifiers: Modifiers) {
@@ -122,15 +129,15 @@ fn no_scene_is_changed_by_being_looked_at() {
 #[test]
 fn what_is_typed_is_drawn_and_mistakes_show_their_place() {
     let mut window = ball();
-    window.get_by_label("Formula").focus();
+    window.get_by_label("Text of the formula").focus();
     window.step();
-    window.get_by_label("Formula").type_text(" + $");
-    until(&mut window, "the error", |w| has(w, "^"));
-    assert!(has(&window, "last one that could be drawn"));
+    window.get_by_label("Text of the formula").type_text(" + $");
+    until(&mut window, "the error", |w| has(w, "last one that could be drawn"));
+    assert!(has(&window, "^^") || has(&window, " ^"), "a caret stands under the place");
     assert!(window.state().model().document().file.surface[0].formula.contains('$'));
     window.key_press(Key::Backspace);
     window.step();
-    window.get_by_label("Formula").type_text("0.5");
+    window.get_by_label("Text of the formula").type_text("0.5");
     until(&mut window, "the other ball", |w| w.state().is_done() && !has(w, "last one that could be drawn"));
     assert!(window.state().model().document().file.surface[0].formula.contains("0.5"));
 }
@@ -155,6 +162,8 @@ fn drags_turn_move_and_light_and_are_taken_back() {
         window.step();
         window.step();
     }
+    // What was chosen for the scene is known again when it is built.
+    until(&mut window, "the picture", |w| w.state().is_done());
     let back = window.state().model().orbit().unwrap();
     assert_eq!((back.towards, back.target), (start.towards, start.target));
     window.get_by_label("Redo").click();
@@ -193,7 +202,7 @@ fn sliders_move_parameters_and_play() {
     let mut window = window(formula("r = 1; x^2 + y^2 + z^2 = r^2"));
     until(&mut window, "the picture", |w| w.state().is_done());
     let value = |w: &Window| w.state().model().sliders()[0].value;
-    let slider = window.get_by_label("r");
+    let slider = window.get_by_role_and_label(Role::Slider, "r");
     slider.set_value_accesskit(0.5);
     window.run_steps(2);
     assert_eq!(value(&window), 0.5);
@@ -270,7 +279,7 @@ fn clips_are_boxes_or_balls_and_light_has_a_pad() {
     let pad = window.get_by_label("Direction of the light").rect();
     drag(&mut window, pad.center(), Vec2::new(15.0, 10.0), Modifiers::NONE);
     let place = window.state().model().light_direction(0).unwrap();
-    assert!(place.elevation > 0.5, "inside of the horizon it is above");
+    assert!((0.1..0.6).contains(&place.elevation), "inside of the horizon it is above, if not by much: {place:?}");
     until(&mut window, "the picture", |w| w.state().is_done());
 }
 

@@ -20,7 +20,11 @@ impl Host for Folder {
     }
 
     fn reserve(&self, path: &Path) -> Result<Box<dyn Place>, String> {
-        if path.parent().is_some_and(Path::is_dir) { Ok(Box::new(Beside(path.to_owned()))) } else { Err("no folder".to_owned()) }
+        if path.parent().is_some_and(Path::is_dir) {
+            Ok(Box::new(Beside(path.to_owned())))
+        } else {
+            Err("no folder".to_owned())
+        }
     }
 }
 
@@ -39,7 +43,7 @@ fn order(path: PathBuf) -> Order {
 fn end(export: &Export) -> Progress {
     loop {
         match export.progress() {
-            Progress::Drawing(..) => std::thread::yield_now(),
+            Progress::Drawing(..) => std::thread::sleep(Duration::from_millis(5)),
             other => return other,
         }
     }

@@ -71,7 +71,8 @@ fn a_new_formula_is_framed_anew_from_the_same_direction() {
 #[test]
 fn only_the_surface_moves_with_a_parameter() {
     let mut model = built("r = 1; x^2 + y^2 + z^2 = r^2");
-    let [clip, view] = [model.scene().unwrap().objects[0].clip().bounds(), model.scene().unwrap().objects[0].clip().bounds()];
+    let [clip, view] =
+        [model.scene().unwrap().objects[0].clip().bounds(), model.scene().unwrap().objects[0].clip().bounds()];
     assert_eq!(clip, view);
     let camera = model.scene().unwrap().view;
     assert_eq!(model.sliders(), [Slider { name: "r".to_owned(), value: 1.0, range: [0.0, 2.0] }]);
@@ -101,7 +102,9 @@ fn clips_lights_and_floor_are_written_to_the_file() {
     assert!(scene.floor_shown && scene.output.tolerance == Some(0.01));
     let target = model.orbit().unwrap().target;
     let there = Polar::of(scene.lights[0].rect.center - target);
-    assert!((there.azimuth - place.turned(0.5, 0.0).azimuth).abs() < 1e-9 && (there.length - place.length).abs() < 1e-9);
+    assert!(
+        (there.azimuth - place.turned(0.5, 0.0).azimuth).abs() < 1e-9 && (there.length - place.length).abs() < 1e-9
+    );
 }
 
 #[test]

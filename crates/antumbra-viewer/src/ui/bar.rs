@@ -42,7 +42,8 @@ impl App {
     }
 
     pub(super) fn begin_saving(&mut self) {
-        let name: String = self.model.document().name.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect();
+        let name: String =
+            self.model.document().name.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect();
         self.save = Some(format!("{}.toml", if name.is_empty() { "scene" } else { &name }));
     }
 

@@ -1,5 +1,6 @@
 //! The picture: hands turn, move and enlarge it; the line between two methods; what is known of a pixel.
 use super::{App, Tool, controls::TURN, inspect, side::Side, theme};
+use crate::worker::Kind;
 use antumbra::geom::{Camera, Vec3};
 use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, RichText, Sense, Stroke, Vec2};
 
@@ -97,7 +98,10 @@ impl App {
         painter.line_segment([Pos2::new(x, rect.top()), Pos2::new(x, rect.bottom())], Stroke::new(1.5, color));
         painter.circle_filled(Pos2::new(x, rect.center().y), 7.0, color);
         let names = self.model.document().methods();
-        let place = [(Pos2::new(x - 12.0, rect.top() + 12.0), Align2::RIGHT_TOP), (Pos2::new(x + 12.0, rect.top() + 12.0), Align2::LEFT_TOP)];
+        let place = [
+            (Pos2::new(x - 12.0, rect.top() + 12.0), Align2::RIGHT_TOP),
+            (Pos2::new(x + 12.0, rect.top() + 12.0), Align2::LEFT_TOP),
+        ];
         for (method, (at, align)) in names.iter().zip(place) {
             let galley = painter.layout_no_wrap(method.name().to_owned(), FontId::proportional(13.0), theme::INK);
             let frame = align.anchor_size(at, galley.size());
@@ -117,23 +121,32 @@ impl App {
         let camera = view.camera(f64::from(rect.width() / rect.height().max(1.0)));
         let centre = self.model.lights().get(self.light).map_or(light.rect.center, |entry| Vec3(entry.center));
         let corner = |u: f64, v: f64| screen(&camera, rect, light.rect.point(u, v) - light.rect.center + centre);
-        let corners: Vec<Pos2> =
-            [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].into_iter().filter_map(|(u, v)| corner(u, v)).collect();
+        let corners: Vec<Pos2> = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)]
+            .into_iter()
+            .filter_map(|(u, v)| corner(u, v))
+            .collect();
         let painter = ui.painter_at(rect);
         if corners.len() == 4 {
             let line = Stroke::new(1.5, theme::ACCENT);
             painter.add(egui::Shape::convex_polygon(corners, theme::ACCENT.gamma_multiply(0.25), line));
         }
-        let (Some(at), Some((film, depth))) = (screen(&camera, rect, centre), camera.project(centre)) else { return false };
+        let (Some(at), Some((film, depth))) = (screen(&camera, rect, centre), camera.project(centre)) else {
+            return false;
+        };
         if !rect.contains(at) {
             return false;
         }
-        let response = ui.interact(Rect::from_center_size(at, Vec2::splat(3.0 * GRIP)), ui.scope_id().with("light"), Sense::drag());
+        let response = ui.interact(
+            Rect::from_center_size(at, Vec2::splat(3.0 * GRIP)),
+            ui.scope_id().with("light"),
+            Sense::drag(),
+        );
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Slider, true, "Light"));
         painter.circle_filled(at, GRIP, theme::ACCENT);
         let by = response.drag_delta();
         if response.dragged() && by != Vec2::ZERO {
-            let moved = [film[0] + 2.0 * f64::from(by.x / rect.width()), film[1] - 2.0 * f64::from(by.y / rect.height())];
+            let moved =
+                [film[0] + 2.0 * f64::from(by.x / rect.width()), film[1] - 2.0 * f64::from(by.y / rect.height())];
             self.model.change_light(self.light, |entry| entry.center = camera.point(moved, depth).0);
         }
         self.settle_after(&response);
@@ -181,7 +194,9 @@ impl App {
 
     /// Colours and meanings of the overlay.
     fn legend(&self, ui: &egui::Ui, rect: Rect) {
-        let Some(image) = self.sides.first().and_then(Side::best).filter(|image| !image.legend.is_empty()) else { return };
+        let Some(image) = self.sides.first().and_then(Side::best).filter(|image| !image.legend.is_empty()) else {
+            return;
+        };
         egui::Area::new(egui::Id::unique("legend"))
             .fixed_pos(rect.right_bottom() + Vec2::new(-12.0, -12.0))
             .pivot(Align2::RIGHT_BOTTOM)
@@ -189,7 +204,7 @@ impl App {
             .show(ui.ctx(), |ui| {
                 theme::float().show(ui, |ui| {
                     ui.spacing_mut().item_spacing.y = 2.0;
-                    for ([r, g, b], text, count) in image.legend.iter().filter(|(.., count)| *count > 0) {
+                    for Kind { color: [r, g, b], text, count } in image.legend.iter().filter(|kind| kind.count > 0) {
                         ui.horizontal(|ui| {
                             let (square, _) = ui.allocate_exact_size(Vec2::splat(11.0), Sense::hover());
                             ui.painter().rect_filled(square, 3.0, Color32::from_rgb(*r, *g, *b));

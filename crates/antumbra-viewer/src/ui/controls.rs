@@ -33,7 +33,8 @@ impl App {
                     self.tool = tool;
                 }
             }
-            ui.separator();
+        });
+        ui.horizontal(|ui| {
             if ui.button("Reset").on_hover_text("As it was opened (R)").clicked() {
                 self.model.reset_camera();
             }
@@ -152,7 +153,8 @@ impl App {
         let kind = clip.map(|clip| clip.ball.is_some());
         let mut wanted = kind;
         ui.horizontal(|ui| {
-            ui.selectable_value(&mut wanted, None, "Chosen").on_hover_text("A box around the surface, or a good part of it");
+            ui.selectable_value(&mut wanted, None, "Chosen")
+                .on_hover_text("A box around the surface, or a good part of it");
             ui.selectable_value(&mut wanted, Some(false), "Box");
             ui.selectable_value(&mut wanted, Some(true), "Ball");
         });
@@ -215,25 +217,19 @@ impl App {
         let (mut method, mut beside) = (document.method, document.beside);
         let before = (method, beside);
         let choose = |ui: &mut egui::Ui, label: &str, method: &mut Method| {
-            egui::ComboBox::from_id_salt(label).selected_text(method.name()).show_ui(ui, |ui| {
+            egui::ComboBox::from_label(label).selected_text(method.name()).show_ui(ui, |ui| {
                 for (m, name, about) in Method::ALL {
                     ui.selectable_value(method, m, name).on_hover_text(about);
                 }
             });
         };
-        ui.horizontal(|ui| {
-            choose(ui, "method", &mut method);
-            ui.label("method");
-        });
+        choose(ui, "method", &mut method);
         let mut two = beside.is_some();
         ui.checkbox(&mut two, "another one beside it");
         let other = Method::ALL.iter().map(|(m, ..)| *m).find(|m| *m != method);
         beside = if two { beside.or(other) } else { None };
         if let Some(beside) = &mut beside {
-            ui.horizontal(|ui| {
-                choose(ui, "beside", beside);
-                ui.label("on the right");
-            });
+            choose(ui, "on the right", beside);
         }
         if (method, beside) != before {
             self.model.set_methods(method, beside);
@@ -242,7 +238,10 @@ impl App {
         let field = slider(&mut bits, 2.0..=16.0)
             .custom_formatter(|bits, _| format!("1/{:.0}", bits.exp2()))
             .custom_parser(|text| {
-                let number = text.trim().strip_prefix("1/").map_or_else(|| text.trim().parse::<f64>().map(f64::recip), str::parse);
+                let number = text
+                    .trim()
+                    .strip_prefix("1/")
+                    .map_or_else(|| text.trim().parse::<f64>().map(f64::recip), str::parse);
                 number.ok().filter(|n| *n >= 1.0).map(f64::log2)
             })
             .text("tolerance");
@@ -263,7 +262,8 @@ impl App {
                     Overlay::Cost => "Cost",
                     Overlay::Width => "Bracket width",
                 };
-                ui.selectable_value(&mut self.overlay, Some(overlay), label).on_hover_text(format!("{name} ({})", k + 1));
+                ui.selectable_value(&mut self.overlay, Some(overlay), label)
+                    .on_hover_text(format!("{name} ({})", k + 1));
             }
         });
     }

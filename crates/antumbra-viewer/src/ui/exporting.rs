@@ -16,18 +16,23 @@ pub(super) struct ExportForm {
 
 impl App {
     pub(super) fn begin_exporting(&mut self) {
-        let name: String = self.model.document().name.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect();
+        let name: String =
+            self.model.document().name.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect();
         let path = format!("{}.png", if name.is_empty() { "picture" } else { &name });
-        self.form = Some(ExportForm { path, size: self.pixels.map(|n| (2 * n).min(MOST)), deep: false, overlay: self.overlay });
+        self.form =
+            Some(ExportForm { path, size: self.pixels.map(|n| (2 * n).min(MOST)), deep: false, overlay: self.overlay });
     }
 
     pub(super) fn export_window(&mut self, context: &egui::Context) {
         self.export_progress(context);
         let Some(mut form) = self.form.take() else { return };
         let (mut open, mut write) = (true, false);
-        egui::Window::new("Export").open(&mut open).resizable(false).collapsible(false).default_pos([380.0, 90.0]).show(
-            context,
-            |ui| {
+        egui::Window::new("Export")
+            .open(&mut open)
+            .resizable(false)
+            .collapsible(false)
+            .default_pos([380.0, 90.0])
+            .show(context, |ui| {
                 egui::Grid::new("export").num_columns(2).spacing([12.0, 8.0]).show(ui, |ui| {
                     ui.label("file");
                     let field = ui.add(egui::TextEdit::singleline(&mut form.path).desired_width(280.0));
@@ -65,8 +70,7 @@ impl App {
                 if busy {
                     ui.label(RichText::new("another one is being written").small().color(theme::FAINT));
                 }
-            },
-        );
+            });
         if write {
             match self.order(&form, context) {
                 Ok(export) => {
@@ -98,9 +102,11 @@ impl App {
         let Some(export) = &self.export else { return };
         let end = match export.progress() {
             Progress::Drawing(share, rest) => {
-                egui::Window::new("Writing a picture").resizable(false).collapsible(false).anchor(egui::Align2::RIGHT_TOP, [-286.0, 58.0]).show(
-                    context,
-                    |ui| {
+                egui::Window::new("Writing a picture")
+                    .resizable(false)
+                    .collapsible(false)
+                    .anchor(egui::Align2::RIGHT_TOP, [-286.0, 58.0])
+                    .show(context, |ui| {
                         ui.add(egui::ProgressBar::new(share as f32).desired_width(220.0).show_percentage());
                         ui.horizontal(|ui| {
                             if ui.button("Cancel export").clicked() {
@@ -111,8 +117,7 @@ impl App {
                                 ui.label(RichText::new(words).small().color(theme::FAINT));
                             }
                         });
-                    },
-                );
+                    });
                 return;
             }
             Progress::Written(path) => Note::Good(format!("wrote {}", path.display())),
@@ -126,15 +131,18 @@ impl App {
         if !self.help {
             return;
         }
-        egui::Window::new("Keys and gestures").open(&mut self.help).resizable(false).collapsible(false).show(context, |ui| {
-            egui::Grid::new("keys").num_columns(2).spacing([18.0, 4.0]).show(ui, |ui| {
-                for (keys, what) in KEYS {
-                    ui.label(RichText::new(*keys).monospace().color(theme::ACCENT));
-                    ui.label(*what);
-                    ui.end_row();
-                }
-            });
-        });
+        egui::Window::new("Keys and gestures").open(&mut self.help).resizable(false).collapsible(false).show(
+            context,
+            |ui| {
+                egui::Grid::new("keys").num_columns(2).spacing([18.0, 4.0]).show(ui, |ui| {
+                    for (keys, what) in KEYS {
+                        ui.label(RichText::new(*keys).monospace().color(theme::ACCENT));
+                        ui.label(*what);
+                        ui.end_row();
+                    }
+                });
+            },
+        );
     }
 }
 

@@ -34,7 +34,8 @@ impl App {
                 }
             }
         });
-        let written = self.model.document().file.surface.get(self.surface).map(|s| s.formula.clone()).unwrap_or_default();
+        let written =
+            self.model.document().file.surface.get(self.surface).map(|s| s.formula.clone()).unwrap_or_default();
         if self.text != written {
             self.text = written;
         }
@@ -48,7 +49,8 @@ impl App {
             ui.fonts_mut(|fonts| fonts.layout_job(job))
         };
         if self.text.len() > MOST {
-            let words = format!("This formula has {} bytes: it is drawn, but too long to be edited here.", self.text.len());
+            let words =
+                format!("This formula has {} bytes: it is drawn, but too long to be edited here.", self.text.len());
             ui.label(RichText::new(words).color(theme::FAINT));
             return self.below(ui, refusal.as_ref());
         }
@@ -62,7 +64,7 @@ impl App {
                 .layouter(&mut layout);
             ui.add(edit)
         });
-        name(&field.inner, "Formula");
+        name(&field.inner, "Text of the formula");
         if field.inner.changed() {
             self.player.stop();
             self.model.set_formula(self.surface, &text);
@@ -106,7 +108,7 @@ impl App {
         for slider in sliders {
             ui.horizontal(|ui| {
                 let plays = self.player.plays(&slider.name);
-                let label = if plays { "⏸" } else { "▶" };
+                let label = if plays { "stop" } else { "play" };
                 let hover = if plays { format!("Stop {}", slider.name) } else { format!("Move {}", slider.name) };
                 let button = ui.small_button(label).on_hover_text(&hover);
                 name(&button, &hover);
@@ -115,8 +117,13 @@ impl App {
                 }
                 let mut value = slider.value;
                 let [lo, hi] = slider.range;
-                ui.spacing_mut().slider_width = (ui.available_width() - 130.0).max(60.0);
-                let field = ui.add(egui::Slider::new(&mut value, lo..=hi).clamping(egui::SliderClamping::Edits).max_decimals(4).text(&slider.name));
+                ui.spacing_mut().slider_width = (ui.available_width() - 120.0).max(60.0);
+                let field = ui.add(
+                    egui::Slider::new(&mut value, lo..=hi)
+                        .clamping(egui::SliderClamping::Edits)
+                        .max_decimals(4)
+                        .text(&slider.name),
+                );
                 if field.changed() && value != slider.value {
                     if !self.player.plays(&slider.name) {
                         self.player.stop();
@@ -152,9 +159,11 @@ fn marked(text: &str, place: Option<Range<usize>>, plain: &TextFormat) -> Layout
         background: Color32::from_rgba_unmultiplied(244, 115, 104, 36),
         ..plain.clone()
     };
-    job.append(&text[..start], 0.0, plain.clone());
-    job.append(&text[start..end], 0.0, bad);
-    job.append(&text[end..], 0.0, plain.clone());
+    for (part, format) in [(&text[..start], plain), (&text[start..end], &bad), (&text[end..], plain)] {
+        if !part.is_empty() {
+            job.append(part, 0.0, format.clone());
+        }
+    }
     job
 }
 

@@ -54,8 +54,12 @@ impl Gallery {
             name(&ui.add(edit), "Search the gallery");
         });
         let filter = self.filter.to_lowercase();
-        let found: Vec<_> =
-            self.names.iter().copied().filter(|(n, t)| n.contains(&filter) || t.to_lowercase().contains(&filter)).collect();
+        let found: Vec<_> = self
+            .names
+            .iter()
+            .copied()
+            .filter(|(n, t)| n.contains(&filter) || t.to_lowercase().contains(&filter))
+            .collect();
         if found.is_empty() {
             ui.label(RichText::new("no surface of that name").color(theme::FAINT));
         }
@@ -95,10 +99,22 @@ impl Gallery {
                 image.paint_at(ui, square);
             }
             Some(Small::Failed) => {
-                painter.text(square.center(), egui::Align2::CENTER_CENTER, "not drawn", egui::FontId::proportional(11.0), theme::FAINT);
+                painter.text(
+                    square.center(),
+                    egui::Align2::CENTER_CENTER,
+                    "not drawn",
+                    egui::FontId::proportional(11.0),
+                    theme::FAINT,
+                );
             }
             Some(Small::Drawing) | None => {
-                painter.text(square.center(), egui::Align2::CENTER_CENTER, "…", egui::FontId::proportional(16.0), theme::FAINT);
+                painter.text(
+                    square.center(),
+                    egui::Align2::CENTER_CENTER,
+                    "…",
+                    egui::FontId::proportional(16.0),
+                    theme::FAINT,
+                );
             }
         }
         let line = if response.hovered() || response.has_focus() {

@@ -155,11 +155,13 @@ impl App {
         self.player.play(ui.ctx(), &mut self.model, answered);
         egui::Panel::top("bar").frame(theme::bar()).show(ui, |ui| self.bar(ui));
         egui::Panel::bottom("status").frame(theme::bar()).show(ui, |ui| self.status(ui));
-        egui::Panel::left("formula").frame(theme::panel()).resizable(true).default_size(330.0).size_range(240.0..=640.0).show(
-            ui,
-            |ui| self.left(ui),
-        );
-        egui::Panel::right("controls").frame(theme::panel()).resizable(false).exact_size(280.0).show(ui, |ui| {
+        egui::Panel::left("formula")
+            .frame(theme::panel())
+            .resizable(true)
+            .default_size(330.0)
+            .size_range(240.0..=640.0)
+            .show(ui, |ui| self.left(ui));
+        egui::Panel::right("controls").frame(theme::panel()).resizable(false).exact_size(296.0).show(ui, |ui| {
             egui::ScrollArea::vertical().auto_shrink(false).show(ui, |ui| self.controls(ui));
         });
         egui::CentralPanel::default().frame(theme::stage()).show(ui, |ui| self.canvas(ui));

@@ -19,12 +19,19 @@ impl App {
                 let words = if certified {
                     format!("{} of {w} × {h} pixels proved", percent(share))
                 } else {
-                    format!("{w} × {h}, {}: {} done, nothing proved but empty pixels", image.method.name(), percent(image.progress))
+                    format!(
+                        "{w} × {h}, {}: {} done, nothing proved but empty pixels",
+                        image.method.name(),
+                        percent(image.progress)
+                    )
                 };
                 ui.label(words);
                 if certified && let Some((narrow, all)) = brackets(&image.stats) {
                     let share = narrow as f64 / all as f64;
-                    ui.label(RichText::new(format!("· {} of {all} brackets narrow enough", percent(share))).color(theme::FAINT));
+                    ui.label(
+                        RichText::new(format!("· {} of {all} brackets narrow enough", percent(share)))
+                            .color(theme::FAINT),
+                    );
                 }
                 let state = match self.done {
                     Some(seconds) => format!("· done in {seconds:.2} s"),

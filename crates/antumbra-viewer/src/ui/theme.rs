@@ -1,6 +1,7 @@
 //! Colours and spaces. Dark: pictures are looked at.
 use eframe::egui::{
-    Color32, Context, CornerRadius, FontFamily, FontId, Frame, Margin, Stroke, TextStyle, ThemePreference, Visuals, style,
+    Color32, Context, CornerRadius, FontFamily, FontId, Frame, Margin, Stroke, TextStyle, ThemePreference, Visuals,
+    style,
 };
 
 /// Behind the picture.

@@ -6,6 +6,17 @@ use antumbra::{
 };
 use std::sync::Arc;
 
+/// A kind of pixels of an overlay.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Kind {
+    /// Its colour, sRGB.
+    pub color: [u8; 3],
+    /// Its meaning.
+    pub text: String,
+    /// Pixels of this kind.
+    pub count: usize,
+}
+
 /// A picture, whole or in part, and everything that is known of it.
 #[derive(Clone, Debug)]
 pub struct Image {
@@ -29,8 +40,8 @@ pub struct Image {
     pub last: bool,
     /// Share of the work of this size, 0 to 1.
     pub progress: f64,
-    /// Colour, meaning and number of pixels of each kind of an overlay.
-    pub legend: Vec<([u8; 3], String, usize)>,
+    /// The kinds of pixels of an overlay; empty where the colours are shown.
+    pub legend: Vec<Kind>,
     /// Seconds since the job was taken up.
     pub seconds: f64,
 }
@@ -43,12 +54,7 @@ pub fn settled(frame: &Frame, index: usize) -> bool {
 }
 
 /// The colours of a frame, opaque where they are settled (everywhere, if it is whole), and the legend of an overlay.
-pub(super) fn shown(
-    frame: &Frame,
-    look: &Look,
-    overlay: Option<(Overlay, f64)>,
-    whole: bool,
-) -> (Vec<u8>, Vec<([u8; 3], String, usize)>) {
+pub(super) fn shown(frame: &Frame, look: &Look, overlay: Option<(Overlay, f64)>, whole: bool) -> (Vec<u8>, Vec<Kind>) {
     let n = frame.verdict.len();
     let mut rgba = Vec::with_capacity(4 * n);
     let alpha = |index: usize| if whole || settled(frame, index) { 255 } else { 0 };
@@ -60,7 +66,7 @@ pub(super) fn shown(
             counts[*kind] += 1;
             rgba.extend(premultiplied([r, g, b], alpha(index)));
         }
-        let entries = legend.entries.into_iter().zip(counts).map(|((color, text), count)| (color, text, count));
+        let entries = legend.entries.into_iter().zip(counts).map(|((color, text), count)| Kind { color, text, count });
         return (rgba, entries.collect());
     }
     let picture = frame.picture(look);

@@ -7,7 +7,7 @@ mod image;
 mod pace;
 mod painter;
 
-pub use image::{Image, settled as is_settled};
+pub use image::{Image, Kind, settled as is_settled};
 pub use pace::Pace;
 
 use antumbra::{

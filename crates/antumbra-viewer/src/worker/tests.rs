@@ -72,8 +72,6 @@ fn bad_scenes_are_refused_with_their_place_and_work_goes_on() {
     let huge = format!("x{}", " + x".repeat(400_000));
     worker.submit(job(5, &huge));
     assert!(finish(&worker, 5).1.unwrap().message.contains("the most is"));
-    worker.submit(Job { size: [0, 10], ..job(6, "x") });
-    assert!(finish(&worker, 6).1.unwrap().message.contains("width"));
 }
 
 #[test]
@@ -120,7 +118,7 @@ fn another_overlay_draws_nothing_anew() {
     let (again, _) = finish(&worker, 2);
     let [shown] = &again[..] else { panic!("{} pictures", again.len()) };
     assert!(Arc::ptr_eq(&shown.frame, &colours.frame) && shown.rgba != colours.rgba);
-    assert_eq!(shown.legend.iter().map(|(.., n)| n).sum::<usize>(), 64 * 48);
+    assert_eq!(shown.legend.iter().map(|kind| kind.count).sum::<usize>(), 64 * 48);
 }
 
 #[test]

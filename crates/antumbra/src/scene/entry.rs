@@ -189,7 +189,8 @@ impl SurfaceEntry {
         };
         let written = format!("{definitions}{}", self.formula);
         // First as it is, so that an error speaks of what was written.
-        let plain = Object::parse(&written, Clip::Everywhere).map_err(|e| formula_error("formula", &written, &self.formula, &e))?;
+        let plain = Object::parse(&written, Clip::Everywhere)
+            .map_err(|e| formula_error("formula", &written, &self.formula, &e))?;
         let clip = self.clip.map(|c| c.clip(&named("clip"))).transpose()?;
         let text = self.composed(&written, clip.as_ref(), &named)?;
         let object = if text == written { Ok(plain) } else { Object::parse(&text, Clip::Everywhere) };
@@ -238,12 +239,11 @@ impl SurfaceEntry {
         if self.transform.is_none() && !caps {
             return Ok(text.to_owned());
         }
-        let [definitions, mut solid] =
-            Formula::split(text).map_err(|e| FileError::Formula {
-                key: named("formula"),
-                message: e.render(text),
-                place: None,
-            })?;
+        let [definitions, mut solid] = Formula::split(text).map_err(|e| FileError::Formula {
+            key: named("formula"),
+            message: e.render(text),
+            place: None,
+        })?;
         if let Some(TransformEntry { scale, rotate, translate }) = self.transform {
             if let Some(s) = scale {
                 finite(&named("transform.scale"), &[s])?;

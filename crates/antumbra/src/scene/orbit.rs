@@ -58,7 +58,13 @@ impl Orbit {
         let target = Some(self.target.0);
         if self.parallel {
             let from = Some(self.towards.vector().0);
-            return CameraEntry { from, target, orthographic: Some(true), width: Some(self.width), ..CameraEntry::default() };
+            return CameraEntry {
+                from,
+                target,
+                orthographic: Some(true),
+                width: Some(self.width),
+                ..CameraEntry::default()
+            };
         }
         let View { eye, fov_deg, .. } = self.view();
         CameraEntry { eye: Some(eye.0), target, angle: Some(fov_deg), ..CameraEntry::default() }
