@@ -42,8 +42,8 @@ impl Drop for Process {
 
 /// Size of the screen.
 const SCREEN: [u16; 2] = [1280, 820];
-/// Where the picture is, and where errors begin in the left panel.
-const PICTURE: (Range<usize>, Range<usize>) = (380..980, 90..740);
+/// Where the picture is, above what is told of a pixel, and where errors begin in the left panel.
+const PICTURE: (Range<usize>, Range<usize>) = (380..970, 90..600);
 const LEFT: (Range<usize>, Range<usize>) = (10..330, 138..186);
 const LONG: Duration = Duration::from_secs(120);
 
@@ -136,24 +136,34 @@ impl Screen {
 
     /// Writes over what is in the field of the formula.
     fn type_formula(&self, text: &str) -> Outcome<()> {
-        self.drag([150, 100], [150, 100])?;
+        self.click([150, 100])?;
         self.key('a'.into(), Some(0xffe3))?;
         text.chars().try_for_each(|c| self.key(c.into(), None))
     }
 
+    fn click(&self, at: [i16; 2]) -> Outcome<()> {
+        self.event(MOTION_NOTIFY_EVENT, 0, at[0], at[1])?;
+        self.event(BUTTON_PRESS_EVENT, 1, 0, 0)?;
+        self.event(BUTTON_RELEASE_EVENT, 1, 0, 0)
+    }
+
+    /// Drags, and holds on until the picture follows: a window that draws slowly sees a drag only if there is a frame in it.
     fn drag(&self, from: [i16; 2], to: [i16; 2]) -> Outcome<()> {
         const STEPS: i16 = 12;
-        // A window that draws slowly sees press and release only if there is a frame between them.
-        let frame = || sleep(Duration::from_millis(500));
+        let before = self.look()?;
         self.event(MOTION_NOTIFY_EVENT, 0, from[0], from[1])?;
-        frame();
         self.event(BUTTON_PRESS_EVENT, 1, 0, 0)?;
-        frame();
-        for k in 1..=STEPS {
-            let at = |axis: usize| from[axis] + (to[axis] - from[axis]) * k / STEPS;
-            self.event(MOTION_NOTIFY_EVENT, 0, at(0), at(1))?;
+        let begun = Instant::now();
+        while difference(&before, &self.look()?) < 0.05 {
+            if begun.elapsed() > LONG {
+                return Err("the picture does not follow the hand".into());
+            }
+            for k in 1..=STEPS {
+                let at = |axis: usize| from[axis] + (to[axis] - from[axis]) * k / STEPS;
+                self.event(MOTION_NOTIFY_EVENT, 0, at(0), at(1))?;
+            }
+            sleep(Duration::from_millis(300));
         }
-        frame();
         self.event(BUTTON_RELEASE_EVENT, 1, 0, 0)
     }
 

@@ -1,5 +1,5 @@
 //! A picture of any size, drawn and written in the background.
-use crate::host::SharedHost;
+use crate::{host::SharedHost, priority::step_back};
 use antumbra::{
     image::{COLOR_PLANE, Depth, exr_bytes, png_bytes},
     render::{Method, Overlay, RenderSpec, Renderer, RunSpec},
@@ -83,6 +83,7 @@ impl Export {
         let cancel = Arc::new(AtomicBool::new(false));
         let (shared, asked) = (Arc::clone(&state), Arc::clone(&cancel));
         let work = move || {
+            step_back();
             let tell = |progress| {
                 *shared.lock().unwrap_or_else(PoisonError::into_inner) = progress;
                 wake();

@@ -12,6 +12,7 @@
 pub mod export;
 pub mod host;
 pub mod model;
+mod priority;
 pub mod thumbnails;
 pub mod ui;
 mod window;

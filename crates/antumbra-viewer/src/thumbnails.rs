@@ -1,5 +1,5 @@
 //! Small pictures of the gallery, drawn by a thread that steps back when somebody's hand waits for the processors.
-use crate::worker::Hurry;
+use crate::{priority::step_back, worker::Hurry};
 use antumbra::{
     image::{COLOR_PLANE, Samples, codes_8},
     render::{RenderSpec, Renderer, RunSpec},
@@ -57,6 +57,7 @@ impl Thumbnails {
         let (send, done) = mpsc::channel();
         let inside = Arc::clone(&wanted);
         let work = move || {
+            step_back();
             while let Some(name) = inside.next() {
                 let rgba = draw(&name, &hurry, &inside.end);
                 if send.send(Thumbnail { name, rgba }).is_err() {

@@ -10,12 +10,15 @@ impl App {
             if let Some(image) = best {
                 let share = proved(&image.stats);
                 let certified = image.method == Method::Certified;
-                let bar = egui::ProgressBar::new(if certified { share } else { image.progress } as f32)
+                let [w, h] = image.size;
+                let full = self.pixels;
+                // Of the finest picture: a coarse one, all proved, is not half of the way.
+                let part = if image.last { 1.0 } else { (w * h) as f64 / (full[0] * full[1]).max(1) as f64 };
+                let bar = egui::ProgressBar::new((part * if certified { share } else { image.progress }) as f32)
                     .desired_width(150.0)
                     .desired_height(8.0)
                     .fill(if self.done.is_some() { theme::GOOD } else { theme::ACCENT });
                 ui.add(bar);
-                let [w, h] = image.size;
                 let words = if certified {
                     format!("{} of {w} × {h} pixels proved", percent(share))
                 } else {
@@ -32,6 +35,10 @@ impl App {
                         RichText::new(format!("· {} of {all} brackets narrow enough", percent(share)))
                             .color(theme::FAINT),
                     );
+                }
+                if !image.last {
+                    let words = format!("· on the way to {} × {}", full[0], full[1]);
+                    ui.label(RichText::new(words).color(theme::FAINT));
                 }
                 let state = match self.done {
                     Some(seconds) => format!("· done in {seconds:.2} s"),

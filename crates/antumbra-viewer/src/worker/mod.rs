@@ -10,6 +10,7 @@ mod painter;
 pub use image::{Image, Kind, settled as is_settled};
 pub use pace::Pace;
 
+use crate::priority::step_back;
 use antumbra::{
     render::{Method, Overlay, RunSpec},
     scene::{FileError, Scene, SceneFile},
@@ -190,6 +191,7 @@ impl Drop for Worker {
 
 /// The thread: takes the newest job, else draws a little more of what there is.
 fn draw(mailbox: &Mailbox, run: RunSpec, tell: &dyn Fn(Event)) {
+    step_back();
     let mut painter = Painter::new(run);
     loop {
         let job = {
