@@ -137,6 +137,16 @@ impl Screen {
     /// Writes over what is in the field of the formula.
     fn type_formula(&self, text: &str) -> Outcome<()> {
         self.click([150, 100])?;
+        // Keys belong to the field as soon as it has its bright border.
+        let border = (20..300, 78..84);
+        let bright = |shot: &Shot| region(shot, &border).iter().filter(|c| c.iter().all(|x| *x > 200)).count() > 100;
+        let begun = Instant::now();
+        while !bright(&self.look()?) {
+            if begun.elapsed() > LONG {
+                return Err("the field of the formula does not take the keys".into());
+            }
+            sleep(Duration::from_millis(100));
+        }
         self.key('a'.into(), Some(0xffe3))?;
         text.chars().try_for_each(|c| self.key(c.into(), None))
     }

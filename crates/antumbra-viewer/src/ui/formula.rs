@@ -79,10 +79,20 @@ impl App {
     /// What is wrong with the formula, and what there is to say about it.
     fn below(&self, ui: &mut egui::Ui, refusal: Option<&Refusal>) {
         if let Some(refusal) = refusal {
-            egui::ScrollArea::both().id_salt("error").max_height(150.0).show(ui, |ui| {
-                let message = RichText::new(&refusal.message).monospace().size(12.0).color(theme::BAD);
-                ui.add(egui::Label::new(message).extend());
-            });
+            let bad = |text: String| RichText::new(text).size(12.5).color(theme::BAD);
+            let place = refusal.place.as_ref().filter(|(k, _)| *k == self.surface).map(|(_, place)| place.clone());
+            if let Some(place) = place {
+                let Mistake { title, excerpt, caret, help } = Mistake::of(&refusal.message, &self.text, place);
+                ui.label(bad(title));
+                ui.add(egui::Label::new(bad(format!("{excerpt}\n{caret}")).monospace()).extend());
+                if let Some(help) = help {
+                    ui.label(RichText::new(help).size(12.5).color(theme::FAINT));
+                }
+            } else {
+                egui::ScrollArea::vertical().id_salt("error").max_height(150.0).show(ui, |ui| {
+                    ui.label(bad(refusal.message.clone()).monospace());
+                });
+            }
             if !self.sides.is_empty() {
                 ui.label(RichText::new("The picture is the last one that could be drawn.").small().color(theme::FAINT));
             }
@@ -140,6 +150,42 @@ impl App {
     }
 }
 
+/// A mistake in a formula, in as many letters as the panel is wide.
+struct Mistake {
+    title: String,
+    /// What is written around the place, in one line.
+    excerpt: String,
+    /// Carets under the place, and what could have stood there.
+    caret: String,
+    help: Option<String>,
+}
+
+impl Mistake {
+    /// Out of the heart's message: its first line, what stands behind its carets, and its advice.
+    fn of(message: &str, text: &str, place: Range<usize>) -> Self {
+        const SIDE: usize = 15;
+        let letters: Vec<(usize, char)> = text.char_indices().collect();
+        let start = letters.iter().position(|(k, _)| *k >= place.start).unwrap_or(letters.len());
+        let end = letters.iter().position(|(k, _)| *k >= place.end).unwrap_or(letters.len()).max(start + 1);
+        let (from, to) = (start.saturating_sub(SIDE), (start + SIDE + 4).min(letters.len()));
+        let head = if from > 0 { "…" } else { "" };
+        let shown: String = letters[from..to].iter().map(|(_, c)| if c.is_whitespace() { ' ' } else { *c }).collect();
+        let tail = if to < letters.len() { "…" } else { "" };
+        let label = message.lines().find_map(|line| {
+            let after = line.split_once('^')?.1.trim_start_matches('^');
+            (line.trim_start().starts_with('|')).then(|| after.trim().to_owned())
+        });
+        let carets = "^".repeat((end - start).min(to.max(start + 1) - start));
+        let indent = " ".repeat(head.chars().count() + start - from);
+        Self {
+            title: message.lines().next().unwrap_or_default().to_owned(),
+            excerpt: format!("{head}{shown}{tail}"),
+            caret: format!("{indent}{carets} {}", label.unwrap_or_default()).trim_end().to_owned(),
+            help: message.lines().find_map(|line| Some(line.split_once("= help: ")?.1.to_owned())),
+        }
+    }
+}
+
 /// The text with a line under a place; under the last letter where the place is the end.
 fn marked(text: &str, place: Option<Range<usize>>, plain: &TextFormat) -> LayoutJob {
     let mut job = LayoutJob::default();
@@ -170,6 +216,24 @@ fn marked(text: &str, place: Option<Range<usize>>, plain: &TextFormat) -> Layout
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn mistakes_are_short_and_carets_stand_under_them() {
+        use antumbra::expr::Formula;
+        for (text, at) in [("x^2 + $ y", '$'), ("x^2 + y^2 + z^2 + x^2 + y^2 + z^2 = 1 = 2 + x", '='), ("π + $", '$')]
+        {
+            let error = Formula::parse(text).unwrap_err();
+            let message = error.render(text);
+            let mistake = Mistake::of(message.strip_prefix("error: ").unwrap(), text, error.span());
+            assert!(mistake.excerpt.chars().count() < 42, "{}", mistake.excerpt);
+            let column = mistake.caret.chars().position(|c| c == '^').unwrap();
+            assert_eq!(mistake.excerpt.chars().nth(column), Some(at), "{}\n{}", mistake.excerpt, mistake.caret);
+            assert_eq!(mistake.title, error.message());
+        }
+        let error = Formula::parse("x +").unwrap_err();
+        let mistake = Mistake::of(&error.render("x +"), "x +", error.span());
+        assert_eq!(mistake.caret.find('^'), Some(3), "after the end: {}", mistake.caret);
+    }
 
     #[test]
     fn places_are_marked_whatever_the_text() {
