@@ -1,5 +1,7 @@
 //! The command line as clap reads it. Nothing happens here.
 
+mod serve;
+
 use std::{path::PathBuf, time::Duration};
 
 use antumbra::{
@@ -9,6 +11,8 @@ use antumbra::{
     shadow::Penumbra,
 };
 use clap::{Parser, Subcommand};
+
+pub(crate) use serve::ServeArgs;
 
 use crate::{
     failure::EXIT_CODES,
@@ -37,6 +41,7 @@ pub(crate) enum Command {
     #[command(after_help = INFO_EXAMPLES)]
     /// Say what this program and this machine offer: presets, gallery, methods, processor, GPUs
     Info,
+    Serve(ServeArgs),
     Completions(CompletionsArgs),
     Man(ManArgs),
 }

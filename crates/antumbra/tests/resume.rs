@@ -4,7 +4,7 @@ use antumbra::render::{Error, Method, RenderSpec, Renderer, RunSpec, StateError,
 use antumbra::scene::{Scene, preset};
 use std::io::Cursor;
 use std::sync::Arc;
-use std::sync::atomic::Ordering;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::Duration;
 
 const ONE: RunSpec = RunSpec { threads: Some(1) };
@@ -180,4 +180,17 @@ fn a_damaged_state_is_refused() {
     let checksum = blake3::hash(&built[..end]);
     built[end..].copy_from_slice(checksum.as_bytes());
     assert!(matches!(of(&built), StateError::Program { .. }));
+}
+
+#[test]
+fn time_is_told_by_the_clock_that_is_set() {
+    static SECONDS: AtomicU64 = AtomicU64::new(0);
+    /// A second passes whenever somebody looks.
+    fn clock() -> Duration {
+        Duration::from_secs(SECONDS.fetch_add(1, Ordering::Relaxed))
+    }
+    let mut renderer = Renderer::new(scene("chubs"), spec("certified"), ONE).unwrap();
+    renderer.set_clock(clock);
+    assert!(!renderer.refine(Duration::from_millis(1)), "one step, after which the time is over");
+    assert_eq!(renderer.stats().seconds, 1.0);
 }

@@ -17,7 +17,7 @@ use antumbra::eval::Workspace;
 use antumbra::geom::{Box3, Clip, Rect, Vec3};
 use antumbra::render::{Frame, Method, RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{Object, PRESETS, Scene, View, preset};
-use antumbra::shadow::{self, Penumbra, Receiver, Scratch, Tolerance, whole_beam};
+use antumbra::shadow::{self, Known, Penumbra, Receiver, Scratch, Tolerance};
 use antumbra::trace::{Cost, Sign, Surface};
 use antumbra_interval::Interval;
 use light::{found, root, sees, visible};
@@ -247,7 +247,7 @@ fn sampling_confirms_odd_surfaces() {
         };
         let tolerance = Tolerance { width: 1.0 / 255.0, rectangles: 300, penumbra: Penumbra::default() };
         let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
-        let pieces = whole_beam(&surfaces);
+        let pieces = Known::nothing(&surfaces);
         let b = shadow::visible(&surfaces, &receiver, &light, &pieces, tolerance, &mut scratch, &mut work, &mut cost);
         let shares = visible(&judges, own, &hit, before, &light, 12);
         assert!(

@@ -11,6 +11,7 @@ mod paper;
 mod record;
 mod render;
 mod scene;
+mod serve;
 mod view;
 
 use std::{
@@ -47,6 +48,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Command::View(args) => view::run(&args),
         Command::Scene(command) => scene::run(&command),
         Command::Info => info::run(),
+        Command::Serve(args) => serve::run(&args),
         Command::Completions(args) => manual::completions(&args),
         Command::Man(args) => manual::man(&args),
     }

@@ -66,14 +66,13 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         End::Asked => bail!(Interrupted(unfinished.stop(renderer)?)),
     }
 
-    let planes = renderer.frame().planes()?;
     picture.fill(&match options.overlay {
         Some(kind) => picture_bytes(&renderer.frame().overlay(kind, options.spec.tolerance)?, options.format)?,
         None => frame_bytes(renderer.frame(), &options.scene.scene.look, options.format)?,
     })?;
     let mut sinks = vec![picture];
     if let Some(folder) = &folder {
-        for plane in planes.iter() {
+        for plane in renderer.frame().planes()?.iter() {
             let mut sink = folder.sink(&format!("{}.npy", plane.name()))?;
             sink.fill(&npy_bytes(plane)?)?;
             sinks.push(sink);

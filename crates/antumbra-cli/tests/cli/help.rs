@@ -3,7 +3,7 @@
 use crate::bench::Bench;
 use predicates::str::contains;
 
-const COMMANDS: [&[&str]; 13] = [
+const COMMANDS: [&[&str]; 14] = [
     &["render"],
     &["view"],
     &["compare"],
@@ -15,6 +15,7 @@ const COMMANDS: [&[&str]; 13] = [
     &["scene", "check"],
     &["scene", "show"],
     &["info"],
+    &["serve"],
     &["completions"],
     &["man"],
 ];

@@ -10,3 +10,4 @@ mod help;
 mod interrupt;
 mod resume;
 mod scene;
+mod serve;

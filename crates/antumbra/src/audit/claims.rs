@@ -3,7 +3,7 @@ use super::precise::{Big, Scratch};
 use super::ray::{Judge, Ray, Seen};
 use crate::expr;
 use crate::geom::{Camera, Rect};
-use crate::render::{Error, Frame, RunSpec};
+use crate::render::{Crew, Error, Frame, RunSpec};
 use crate::scene::Scene;
 use fastrand::Rng;
 use rayon::prelude::*;
@@ -136,7 +136,7 @@ pub struct Audit<'a> {
     frame: &'a Frame,
     spec: AuditSpec,
     camera: Camera,
-    pool: rayon::ThreadPool,
+    crew: Crew,
     chosen: Vec<usize>,
     next: usize,
     report: Report,
@@ -149,7 +149,7 @@ impl<'a> Audit<'a> {
     /// # Errors
     /// Where the threads cannot be started.
     pub fn new(scene: &'a Scene, frame: &'a Frame, spec: AuditSpec, run: RunSpec) -> Result<Self, Error> {
-        let pool = run.pool()?;
+        let crew = run.crew()?;
         let mut random = Rng::with_seed(spec.seed);
         let partly = |i: usize| frame.lights.iter().any(|l| l.visible_hi[i] > 0.0 && l.visible_lo[i] < 1.0);
         let mut classes: [Vec<usize>; 4] = Default::default();
@@ -167,7 +167,7 @@ impl<'a> Audit<'a> {
             .filter_map(|k| random.choice(filled[k % filled.len()]).copied())
             .collect();
         let camera = scene.view.camera(frame.width as f64 / frame.height as f64);
-        Ok(Self { scene, frame, spec, camera, pool, chosen, next: 0, report: Report::default() })
+        Ok(Self { scene, frame, spec, camera, crew, chosen, next: 0, report: Report::default() })
     }
 
     /// Looks at some more pixels, on all threads; tells whether it is finished.
@@ -179,7 +179,7 @@ impl<'a> Audit<'a> {
         let batch: Vec<(usize, usize)> = (self.next..end).map(|k| (k, self.chosen[k])).collect();
         let this = &*self;
         let reports: Result<Vec<Report>, expr::Error> =
-            self.pool.install(|| batch.par_chunks(8).map(|part| this.pixels(part)).collect());
+            self.crew.install(|| batch.par_chunks(8).map(|part| this.pixels(part)).collect());
         reports?.into_iter().for_each(|report| self.report.merge(report));
         self.next = end;
         Ok(end == self.chosen.len())

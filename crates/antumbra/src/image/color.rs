@@ -62,15 +62,51 @@ pub fn code_16(linear: f64) -> u16 {
 /// - within 1/2 of black or white, `floor(v + u)`, `u` uniform on [0, 1): the mean is still `v`, nothing has to be
 ///   clamped, and `v` = 0 and `v` = 255 stay what they are.
 pub fn code_8(linear: f64, row: usize, column: usize, channel: usize) -> u8 {
-    let v = 255.0 * srgb_from_linear(linear);
-    let u = noise(row, column, channel);
-    // 0.5 <= v <= 254.5 and |n| < 1 keep the second form within 0..=255.
-    let code = if !(0.5..=254.5).contains(&v) {
+    // A good guess of `v` decides, unless it is nearly between two codes or two forms.
+    if let Some(v) = guess(linear)
+        && DITHERED_ALIKE.iter().all(|edge| (v - edge).abs() > GUESS)
+    {
+        let [low, high] = [v - GUESS, v + GUESS].map(|v| dithered(v, row, column, channel));
+        if low == high {
+            return low;
+        }
+    }
+    dithered(255.0 * srgb_from_linear(linear), row, column, channel)
+}
+
+/// Between them codes are dithered alike.
+const DITHERED_ALIKE: [f64; 2] = [0.5, 254.5];
+
+/// The code of an exact one `v`.
+fn dithered(v: f64, row: usize, column: usize, channel: usize) -> u8 {
+    let (u, [first, last]) = (noise(row, column, channel), DITHERED_ALIKE);
+    // first <= v <= last and |n| < 1 keep the second form within 0..=255.
+    let code = if !(first..=last).contains(&v) {
         (v + u).floor()
     } else {
         (v + 0.5 + u - noise(row, column.wrapping_add(1), channel)).floor()
     };
     code as u8
+}
+
+/// How far a [`guess`] may be off, with room to spare: a test measures a quarter of it at most.
+const GUESS: f64 = 1e-3;
+
+/// About 255 times the sRGB code of linear light in (0, 1), by a table: powers are slow.
+fn guess(linear: f64) -> Option<f64> {
+    const STEPS: usize = 8192;
+    // Fine steps where the transfer is steep: by the square root of the light.
+    static TABLE: LazyLock<Vec<f64>> = LazyLock::new(|| {
+        let code = |k: usize| 255.0 * srgb_from_linear((k as f64 / STEPS as f64) * (k as f64 / STEPS as f64));
+        (0..=STEPS).map(code).collect()
+    });
+    if !(linear > 0.0 && linear < 1.0) {
+        return None;
+    }
+    let place = linear.sqrt() * STEPS as f64;
+    let step = (place as usize).min(STEPS - 1);
+    let (a, b) = (TABLE[step], TABLE[step + 1]);
+    Some(a + (b - a) * (place - step as f64))
 }
 
 /// Uniform noise in [0, 1) of 32 bits, by the mixing steps of `MurmurHash3`'s 64-bit finaliser (Appleby, public
@@ -106,6 +142,21 @@ mod tests {
         for code in 0..=u16::MAX {
             assert_eq!(code_16(linear_from_srgb(f64::from(code) / 65535.0)), code);
         }
+    }
+
+    #[test]
+    fn guesses_are_good_enough() {
+        let mut most = 0.0f64;
+        for k in 1..400_000 {
+            let light = f64::from(k as f32 / 400_000.0);
+            most = most.max((guess(light).unwrap() - 255.0 * srgb_from_linear(light)).abs());
+        }
+        assert!(most < 0.25 * GUESS, "{most}");
+        for k in 0..400_000 {
+            let (light, row, column) = (f64::from(k as f32 / 400_000.0), k % 613, k / 613);
+            assert_eq!(code_8(light, row, column, 1), dithered(255.0 * srgb_from_linear(light), row, column, 1));
+        }
+        assert!([0.0, 1.0, -1.0, f64::NAN].iter().all(|x| guess(*x).is_none()));
     }
 
     #[test]

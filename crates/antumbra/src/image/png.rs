@@ -96,6 +96,8 @@ fn encode(plane: &Plane, depth: Depth, note: Option<&str>, light: impl Iterator<
     let mut encoder = png::Encoder::new(&mut bytes, side(columns)?, side(plane.rows())?);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(if depth == Depth::Eight { png::BitDepth::Eight } else { png::BitDepth::Sixteen });
+    // Dither leaves little to compress: a sixth more bytes in a fortieth of the time, which was a tenth of a whole picture's.
+    encoder.set_compression(png::Compression::Fast);
     // 1/2.2, the value that the PNG standard wants beside `sRGB` for programs that know only `gAMA`.
     encoder.set_source_gamma(png::ScaledFloat::from_scaled(45455));
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);

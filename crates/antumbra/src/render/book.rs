@@ -1,6 +1,7 @@
 //! What is known of the picture so far: the frame, its hits, and the statistics.
 use super::by_proof::BLOCK;
 use super::crease::apart;
+use super::hits::Hits;
 use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
 use super::task::Task;
@@ -17,7 +18,7 @@ use std::collections::BTreeMap;
 pub(super) struct Book {
     pub(super) frame: Frame,
     pub(super) stats: Stats,
-    hits: Vec<Option<Hit>>,
+    hits: Hits,
     /// Pixels that an edge crosses, with the hits of their grid of rays.
     edges: BTreeMap<usize, Edge>,
     /// Evaluations that the search for the surface took, per pixel.
@@ -29,7 +30,7 @@ impl Book {
         let (width, height) = (frame.width, frame.height);
         let (method, lights) = (method.name().to_owned(), frame.lights.len());
         let stats = Stats { method, width, height, threads, lights, ..Stats::default() };
-        let (hits, primary_cost) = (vec![None; width * height], vec![0; width * height]);
+        let (hits, primary_cost) = (Hits::none(width * height), vec![0; width * height]);
         Self { frame, stats, hits, edges: BTreeMap::new(), primary_cost }
     }
 
@@ -46,21 +47,54 @@ impl Book {
             && planes == [n; 5]
             && more == [n; 3]
             && frame.lights.iter().all(of_light)
-            && (self.hits.len(), self.primary_cost.len()) == (n, n)
+            && (self.hits.pixels(), self.primary_cost.len()) == (n, n)
+            && self.hits.holds()
             && self.edges.keys().all(|index| *index < n)
     }
 
+    /// Takes over what another book of the same picture knows, and tells whether it can: not where both know something of a pixel.
+    pub(super) fn join(&mut self, other: Self) -> bool {
+        let seen = |book: &Self, index: usize| book.frame.verdict[index] != Frame::UNSEEN;
+        if (0..self.hits.pixels()).any(|index| seen(self, index) && seen(&other, index)) {
+            return false;
+        }
+        for index in (0..self.hits.pixels()).filter(|index| seen(&other, *index)) {
+            let (to, from) = (&mut self.frame, &other.frame);
+            to.verdict[index] = from.verdict[index];
+            (to.t_lo[index], to.t_hi[index]) = (from.t_lo[index], from.t_hi[index]);
+            to.normal[index] = from.normal[index];
+            to.rgb[index] = from.rgb[index];
+            (to.coverage_lo[index], to.coverage_hi[index]) = (from.coverage_lo[index], from.coverage_hi[index]);
+            to.cost[index] = from.cost[index];
+            for (to, from) in to.lights.iter_mut().zip(&from.lights) {
+                (to.visible_lo[index], to.visible_hi[index]) = (from.visible_lo[index], from.visible_hi[index]);
+                to.facing[index] = from.facing[index];
+                to.initial_occluded[index] = from.initial_occluded[index];
+            }
+            self.hits.put(index, other.hits.at(index).copied());
+            self.primary_cost[index] = other.primary_cost[index];
+        }
+        self.edges.extend(other.edges);
+        self.stats.join(&other.stats);
+        true
+    }
+
+    /// Whether every pixel was looked at.
+    pub(super) fn is_whole(&self) -> bool {
+        !self.frame.verdict.contains(&Frame::UNSEEN)
+    }
+
     pub(super) fn hit(&self, index: usize) -> Option<&Hit> {
-        self.hits[index].as_ref()
+        self.hits.at(index)
     }
 
     pub(super) fn restart_shadows(&mut self, method: Method) {
         self.stats.forget_shadows(method.name());
-        for index in 0..self.hits.len() {
+        for index in 0..self.hits.pixels() {
             self.frame.cost[index] = self.primary_cost[index];
             for light in &mut self.frame.lights {
                 light.initial_occluded[index] = false;
-                if self.hits[index].is_some() {
+                if self.hits.at(index).is_some() {
                     (light.visible_lo[index], light.visible_hi[index]) = (0.0, 1.0);
                 }
             }
@@ -101,14 +135,14 @@ impl Book {
                 (planes.visible_lo[index], planes.visible_hi[index]) = (0.0, 1.0);
             }
         }
-        self.hits[index] = pixel.hit;
+        self.hits.put(index, pixel.hit);
         if let Some(edge) = pixel.edge {
             self.edges.insert(index, *edge);
         }
     }
 
     pub(super) fn put_light(&mut self, task: &Task, light: &Light) {
-        if self.hits[light.index].is_none() {
+        if self.hits.at(light.index).is_none() {
             return;
         }
         let (frame, stats, index) = (&mut self.frame, &mut self.stats, light.index);
@@ -139,7 +173,7 @@ impl Book {
     /// threads of the pool that this runs in.
     pub(super) fn put_colors(&mut self, task: &Task, pixels: &[usize], lit: bool) {
         let this = &*self;
-        let color = |&index: &usize| this.color(task, index, this.hits[index].as_ref(), lit.then_some(index));
+        let color = |&index: &usize| this.color(task, index, this.hits.at(index), lit.then_some(index));
         let colors: Vec<[f32; 3]> = pixels.par_iter().with_min_len(BLOCK * BLOCK).map(color).collect();
         for (&index, color) in pixels.iter().zip(colors) {
             self.frame.rgb[index] = color;
@@ -171,14 +205,14 @@ impl Book {
         let (width, height) = (task.film.width, task.film.height);
         let crease = |index: &usize| {
             let (index, column, row) = (*index, index % width, index / width);
-            let Some(hit) = self.hits[index].filter(|hit| hit.receiver.is_some()) else { return false };
+            let Some(hit) = self.hits.at(index).copied().filter(|hit| hit.receiver.is_some()) else { return false };
             let beside = [
                 (column > 0, index.wrapping_sub(1)),
                 (column + 1 < width, index + 1),
                 (row > 0, index.wrapping_sub(width)),
                 (row + 1 < height, index + width),
             ];
-            let differs = |at: usize| self.hits[at].is_some_and(|other| apart(&hit, &other));
+            let differs = |at: usize| self.hits.at(at).is_some_and(|other| apart(&hit, other));
             !self.edges.contains_key(&index) && beside.into_iter().any(|(inside, at)| inside && differs(at))
         };
         pixels.filter(crease).collect()
@@ -192,8 +226,9 @@ impl Book {
 
     /// The colours that depend on neighbouring pixels, when those are known: of what may be a surface, and of edges.
     pub(super) fn finish_colors(&mut self, task: &Task) {
-        for index in 0..self.hits.len() {
-            if let Some(hit) = self.hits[index].filter(|hit| task.method == Method::Certified && hit.receiver.is_none())
+        for index in 0..self.hits.pixels() {
+            if let Some(hit) =
+                self.hits.at(index).copied().filter(|hit| task.method == Method::Certified && hit.receiver.is_none())
             {
                 self.frame.rgb[index] = self.color(task, index, Some(&hit), None);
             }
@@ -222,7 +257,7 @@ impl Book {
                 (0..3).for_each(|c| color[c] += THIN_WEIGHT * (veil[c] - color[c]));
             }
             if edge.rays.iter().all(Option::is_none)
-                && let Some(hit) = &self.hits[index]
+                && let Some(hit) = self.hits.at(index)
                 && !self.at_an_edge(task, index)
             {
                 let thin = self.color(task, index, Some(hit), self.light_near(task, index, hit));
@@ -239,7 +274,7 @@ impl Book {
     /// Whether that surface is proved in the pixel or next to it.
     fn is_near(&self, task: &Task, index: usize, object: usize) -> bool {
         neighbours(task, index)
-            .any(|at| self.hits[at].is_some_and(|hit| hit.object == object && hit.receiver.is_some()))
+            .any(|at| self.hits.at(at).is_some_and(|hit| hit.object == object && hit.receiver.is_some()))
     }
 
     /// Whether a surface is proved in the pixel or next to it: what is undecided there is how far its edge reaches.
@@ -251,7 +286,7 @@ impl Book {
     fn light_near(&self, task: &Task, index: usize, hit: &Hit) -> Option<usize> {
         let mut best = (f64::INFINITY, None);
         for at in neighbours(task, index) {
-            if let Some(other) = &self.hits[at]
+            if let Some(other) = self.hits.at(at)
                 && other.object == hit.object
             {
                 let distance = (other.point - hit.point).length();

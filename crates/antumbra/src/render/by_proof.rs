@@ -3,8 +3,9 @@ use super::given::Given;
 use super::pixel::Light;
 use super::task::Task;
 use crate::eval::Workspace;
-use crate::shadow::{self, Receiver, Shaft, ShaftVerdict, shaft, visible, whole_beam};
-use crate::trace::{Cost, Piece};
+use crate::geom::Rect;
+use crate::shadow::{self, Known, Part, Receiver, Shaft, ShaftVerdict, shaft, visible};
+use crate::trace::{Cost, Surface};
 
 /// Side of the blocks that both passes start with: a power of two.
 pub(super) const BLOCK: usize = 32;
@@ -28,11 +29,11 @@ pub(super) fn shadows<'a>(
     given: Option<&Given>,
 ) -> Vec<Light> {
     let surfaces = task.surfaces();
-    let (mut work, mut scratch, mut stack) = (Workspace::default(), shadow::Scratch::default(), Vec::new());
+    let (mut work, mut scratch) = (Workspace::default(), shadow::Scratch::default());
     let mut out = Vec::new();
     // What a shaft costs is booked on the first pixel below it.
     let mut owed = Cost::default();
-    let start = |light| ((column, row, BLOCK), light, whole_beam(&surfaces));
+    let start = |light| ((column, row, BLOCK), light, Known::nothing(&surfaces));
     let known = |light: usize, index: usize| given.and_then(|g| g.light(light, index));
     let narrow = |[lo, hi]: &[f64; 2]| hi - lo <= task.tolerance.width;
     for light in 0..task.lights.len() {
@@ -42,8 +43,8 @@ pub(super) fn shadows<'a>(
             }
         }
     }
-    let mut blocks: Vec<(Block, usize, Vec<Piece>)> = (0..task.lights.len()).rev().map(start).collect();
-    while let Some((block, light, mut pieces)) = blocks.pop() {
+    let mut blocks: Vec<(Block, usize, Known)> = (0..task.lights.len()).rev().map(start).collect();
+    while let Some((block, light, mut sees)) = blocks.pop() {
         let rect = &task.lights[light].rect;
         let hits: Vec<(usize, &Receiver)> = indices(task, block)
             .filter(|index| known(light, *index).is_none_or(|bracket| !narrow(&bracket)))
@@ -61,39 +62,28 @@ pub(super) fn shadows<'a>(
             if let Some(fit) = Shaft::fit(&placed)
                 && (side <= 4 || !fit.rough())
             {
-                let mut open = Vec::new();
-                let found = shaft(&surfaces, &fit, rect, &pieces, &mut open, &mut stack, &mut work, &mut owed);
-                if found != ShaftVerdict::Open {
-                    let visible = f64::from(u8::from(found == ShaftVerdict::Lit));
+                look(&surfaces, &fit, rect, &mut sees, &mut scratch, &mut work, &mut owed);
+                if sees.settled() {
+                    let [lo, hi] = sees.bounds();
                     for (index, _) in hits {
                         let initial = std::mem::take(&mut owed);
-                        let first_occluded = found == ShaftVerdict::Dark;
-                        out.push(Light {
-                            index,
-                            light,
-                            lo: visible,
-                            hi: visible,
-                            first_occluded,
-                            initial,
-                            ..Light::default()
-                        });
+                        let first_occluded = !(sees.whole() && lo == 1.0);
+                        out.push(Light { index, light, lo, hi, first_occluded, initial, ..Light::default() });
                     }
                     continue;
                 }
-                pieces = open;
             }
         }
         if side > 2 && hits.len() >= 2 {
             let half = side / 2;
             for (down, right) in [(1, 1), (1, 0), (0, 1), (0, 0)] {
-                blocks.push(((column + right * half, row + down * half, half), light, pieces.clone()));
+                blocks.push(((column + right * half, row + down * half, half), light, sees.clone()));
             }
             continue;
         }
         for (index, receiver) in hits {
             let mut cost = Cost::default();
-            let bracket =
-                visible(&surfaces, receiver, rect, &pieces, task.tolerance, &mut scratch, &mut work, &mut cost);
+            let bracket = visible(&surfaces, receiver, rect, &sees, task.tolerance, &mut scratch, &mut work, &mut cost);
             // Both brackets hold, so they meet.
             let [lo, hi] = known(light, index).unwrap_or([0.0, 1.0]);
             let (lo, hi) = (lo.max(bracket.lo), hi.min(bracket.hi));
@@ -110,4 +100,32 @@ pub(super) fn shadows<'a>(
         }
     }
     out
+}
+
+/// Tests the open parts of a light for all hits of a tile. A light that is wide against the tile is divided once: then the hits
+/// inherit what is open of each quarter, or that nothing is.
+fn look(
+    surfaces: &[Surface<'_>],
+    fit: &Shaft,
+    light: &Rect,
+    sees: &mut Known,
+    scratch: &mut shadow::Scratch,
+    work: &mut Workspace,
+    cost: &mut Cost,
+) {
+    let mut parts = sees.take_open();
+    while let Some(part) = parts.pop() {
+        match shaft(surfaces, fit, light, &part, scratch, work, cost) {
+            ShaftVerdict::Lit => sees.lit(&part),
+            ShaftVerdict::Dark => sees.shaded(),
+            ShaftVerdict::Open(open) => {
+                let part = Part { pieces: open.to_vec(), ..part };
+                if sees.whole() && fit.narrow_against(light) {
+                    parts.extend(sees.divide(&part));
+                } else {
+                    sees.open(part);
+                }
+            }
+        }
+    }
 }

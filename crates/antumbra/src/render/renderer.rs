@@ -3,6 +3,7 @@ use super::book::Book;
 use super::by_paper;
 use super::by_proof::{self, BLOCK};
 use super::crease;
+use super::crew::{Clock, Crew, std_clock};
 use super::given::{Given, Question};
 use super::spare::Spare;
 use super::state::{self, StateError, Stopped};
@@ -19,7 +20,7 @@ use std::io::{Read, Seek, Write};
 use std::ops::Range;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 /// Draws one scene. Ask it to [`refine`](Self::refine) until it is done; look at [`frame`](Self::frame) and
 /// [`stats`](Self::stats) whenever you like. The frame is the same, bit for bit, for any number of threads and any
@@ -27,11 +28,13 @@ use std::time::{Duration, Instant};
 pub struct Renderer {
     task: Task,
     spec: RenderSpec,
-    pool: rayon::ThreadPool,
+    crew: Crew,
+    clock: Clock,
     grids: Vec<Grid>,
     book: Book,
     given: Option<Given>,
     stage: Stage,
+    part: Part,
     next_tile: usize,
     stop: Arc<AtomicBool>,
     spare: Spare,
@@ -45,6 +48,19 @@ pub(super) enum Stage {
     Shadow,
     Edges,
     Done,
+    /// The part is done, and the others are awaited.
+    Parted,
+}
+
+/// Which tiles are drawn: every `of`-th, beginning with the one that comes as number `number`.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub(super) struct Part {
+    number: usize,
+    of: usize,
+}
+
+impl Part {
+    const WHOLE: Self = Self { number: 0, of: 1 };
 }
 
 impl Renderer {
@@ -55,12 +71,13 @@ impl Renderer {
     pub fn new(scene: Arc<Scene>, spec: RenderSpec, run: RunSpec) -> Result<Self, Error> {
         spec.validate()?;
         let frame = Frame::new(spec.width, spec.height, scene.lights.len())?;
-        let pool = run.pool()?;
+        let crew = run.crew()?;
         let task = Task::new(scene, &spec)?;
-        let book = Book::new(frame, spec.method, pool.current_num_threads());
+        let book = Book::new(frame, spec.method, crew.size());
         let (stage, stop) = (Stage::Grid, Arc::default());
         let spare = Spare::default();
-        Ok(Self { task, spec, pool, grids: Vec::new(), book, given: None, stage, next_tile: 0, stop, spare })
+        let (grids, clock, part) = (Vec::new(), std_clock, Part::WHOLE);
+        Ok(Self { task, spec, crew, clock, grids, book, given: None, stage, part, next_tile: 0, stop, spare })
     }
 
     /// Writes everything that is known, so that [`Renderer::resume`] can go on with it: some 50 to 300 bytes for each
@@ -69,7 +86,8 @@ impl Renderer {
     /// # Errors
     /// Those of `out`.
     pub fn save(&self, out: &mut dyn Write) -> Result<(), StateError> {
-        state::write(&self.task.scene, &self.spec, (self.stage, self.next_tile, &self.book), out)
+        let how_far = Stopped { stage: self.stage, part: self.part, tiles: self.next_tile, book: &self.book };
+        state::write(&self.task.scene, &self.spec, &how_far, out)
     }
 
     /// A renderer that goes on where the saved one was. Frame and statistics will be those of a render at one go, bit for
@@ -87,19 +105,44 @@ impl Renderer {
         input: &mut (impl Read + Seek),
     ) -> Result<Self, StateError> {
         let mut renderer = Self::new(scene, spec, run)?;
-        let (task, threads) = (&renderer.task, renderer.pool.current_num_threads());
-        let Stopped { stage, tiles, book } = state::read(&task.scene, &renderer.spec, task.lights.len(), input)?;
-        if tiles > renderer.tiles() {
+        let (task, threads) = (&renderer.task, renderer.crew.size());
+        let Stopped { stage, part, tiles, book } = state::read(&task.scene, &renderer.spec, task.lights.len(), input)?;
+        renderer.part = part;
+        if part.number >= part.of || tiles > renderer.turns() {
             return Err(StateError::Damaged);
         }
         (renderer.stage, renderer.next_tile, renderer.book) = (stage, tiles, book);
         renderer.book.stats.threads = threads;
         if stage != Stage::Grid && matches!(renderer.task.method, Method::Paper(_)) {
-            let begin = Instant::now();
+            let begin = (renderer.clock)();
             renderer.build_grids();
-            renderer.book.stats.grid_seconds += begin.elapsed().as_secs_f64();
+            renderer.book.stats.grid_seconds += renderer.since(begin).as_secs_f64();
         }
         Ok(renderer)
+    }
+
+    /// Draws only part `number` of `of`, the tiles being dealt out in turn: to be called before it begins. When [`refine`](Self::refine)
+    /// has done the part, it is to be saved for another renderer of the same picture to [`join`](Self::join), or to join the others.
+    /// Panics unless `number < of`.
+    pub fn take_part(&mut self, number: usize, of: usize) {
+        assert!(number < of, "part {number} of {of}");
+        self.part = Part { number, of };
+    }
+
+    /// Takes over a part that another renderer has done and saved. When all parts are there, [`refine`](Self::refine) does the rest;
+    /// frame and counters are then those of one renderer that did all, bit for bit (times are those of the slowest part).
+    ///
+    /// # Errors
+    /// Those of [`Renderer::resume`]; [`StateError::Part`] where this part or that one is not done, or tiles are there already.
+    pub fn join(&mut self, input: &mut (impl Read + Seek)) -> Result<(), StateError> {
+        let Stopped { stage, book, .. } = state::read(&self.task.scene, &self.spec, self.task.lights.len(), input)?;
+        if [self.stage, stage] != [Stage::Parted; 2] || !self.book.join(book) {
+            return Err(StateError::Part);
+        }
+        if self.book.is_whole() {
+            (self.stage, self.part, self.next_tile) = (Stage::Edges, Part::WHOLE, 0);
+        }
+        Ok(())
     }
 
     /// Set it, from any thread, and [`refine`](Self::refine) returns as soon as the tiles under way are done; nothing else
@@ -107,6 +150,16 @@ impl Renderer {
     #[must_use]
     pub fn stop_flag(&self) -> Arc<AtomicBool> {
         Arc::clone(&self.stop)
+    }
+
+    /// Measures budgets and times by another clock than that of std.
+    pub fn set_clock(&mut self, clock: Clock) {
+        self.clock = clock;
+    }
+
+    /// The time since a moment of the clock.
+    fn since(&self, begin: Duration) -> Duration {
+        (self.clock)().saturating_sub(begin)
     }
 
     /// What the certified method is to prove: for those who can prove some of it faster.
@@ -161,26 +214,31 @@ impl Renderer {
         }
     }
 
-    /// Works for about `budget` (at least one step) and tells whether the picture is finished.
+    /// Works for about `budget` (at least one step) and tells whether the picture, or the part of it that was taken, is finished.
     pub fn refine(&mut self, budget: Duration) -> bool {
-        let begin = Instant::now();
-        while self.stage != Stage::Done {
-            let step = Instant::now();
+        let begin = (self.clock)();
+        while !self.rests() {
+            let step = (self.clock)();
             let stage = self.stage;
             self.step();
-            let seconds = step.elapsed().as_secs_f64();
+            let seconds = self.since(step).as_secs_f64();
             let stats = &mut self.book.stats;
             match stage {
                 Stage::Grid => stats.grid_seconds += seconds,
                 Stage::Primary => stats.primary_seconds += seconds,
                 Stage::Shadow => stats.shadow_seconds += seconds,
-                Stage::Edges | Stage::Done => stats.shading_seconds += seconds,
+                Stage::Edges | Stage::Done | Stage::Parted => stats.shading_seconds += seconds,
             }
-            if begin.elapsed() >= budget || self.stop.load(Ordering::Relaxed) {
+            if self.since(begin) >= budget || self.stop.load(Ordering::Relaxed) {
                 break;
             }
         }
-        self.stage == Stage::Done
+        self.rests()
+    }
+
+    /// Nothing is left to do, here.
+    fn rests(&self) -> bool {
+        matches!(self.stage, Stage::Done | Stage::Parted)
     }
 
     /// Share of the work that is done, 0 to 1, roughly: tiles, the shadows counted three times.
@@ -191,7 +249,7 @@ impl Renderer {
             Stage::Grid => 0.0,
             Stage::Primary => 0.25 * share,
             Stage::Shadow => 0.25 + 0.75 * share,
-            Stage::Edges | Stage::Done => 1.0,
+            Stage::Edges | Stage::Done | Stage::Parted => 1.0,
         }
     }
 
@@ -207,7 +265,7 @@ impl Renderer {
             Stage::Primary => all(stats.primary_seconds) * (1.0 + SHADOWS_PER_HITS) - stats.primary_seconds,
             Stage::Shadow if share > 0.0 => all(stats.shadow_seconds) - stats.shadow_seconds,
             Stage::Shadow => SHADOWS_PER_HITS * stats.primary_seconds,
-            Stage::Edges | Stage::Done => 0.0,
+            Stage::Edges | Stage::Done | Stage::Parted => 0.0,
         };
         Duration::try_from_secs_f64(seconds).ok()
     }
@@ -226,7 +284,7 @@ impl Renderer {
                 let all = stats.hits * stats.lights as u64;
                 ("light: hits", stats.lit + stats.partly + stats.dark, all)
             }
-            Stage::Edges | Stage::Done => ("colours", pixels, pixels),
+            Stage::Edges | Stage::Done | Stage::Parted => ("colours", pixels, pixels),
         }
     }
 
@@ -244,11 +302,16 @@ impl Renderer {
 
     /// Share of the tiles of this stage that are done.
     fn share(&self) -> f64 {
-        self.next_tile as f64 / self.tiles() as f64
+        self.next_tile as f64 / self.turns().max(1) as f64
     }
 
     fn tiles(&self) -> usize {
         self.task.film.width.div_ceil(BLOCK) * self.task.film.height.div_ceil(BLOCK)
+    }
+
+    /// Tiles of the part that is drawn here.
+    fn turns(&self) -> usize {
+        self.tiles().saturating_sub(self.part.number).div_ceil(self.part.of)
     }
 
     /// Left column and top row of the tile that comes as number `turn`. The order is scattered over the picture, by the
@@ -271,7 +334,7 @@ impl Renderer {
 
     fn build_grids(&mut self) {
         let (task, n) = (&self.task, self.spec.grid);
-        self.grids = self.pool.install(|| by_paper::grids(task, n));
+        self.grids = self.crew.install(|| by_paper::grids(task, n));
         self.book.stats.grid_evaluations = self.grids.iter().map(Grid::evaluations).sum();
     }
 
@@ -285,20 +348,22 @@ impl Renderer {
                 self.stage = Stage::Primary;
                 return;
             }
-            Stage::Done => return,
+            Stage::Done | Stage::Parted => return,
             Stage::Primary | Stage::Shadow | Stage::Edges => {}
         }
-        let end = (self.next_tile + 4 * self.pool.current_num_threads()).min(self.tiles());
+        let end = (self.next_tile + 4 * self.crew.size()).min(self.turns());
         let batch = self.next_tile..end;
         self.next_tile += match self.stage {
             Stage::Primary => self.primary(batch),
             Stage::Shadow => self.shadows(batch),
             _ => self.creases(batch),
         };
-        if self.next_tile == self.tiles() {
+        if self.next_tile == self.turns() {
             self.next_tile = 0;
             self.stage = match self.stage {
                 Stage::Primary => Stage::Shadow,
+                // Edges look at the neighbours of pixels, which others draw.
+                Stage::Shadow if self.part != Part::WHOLE => Stage::Parted,
                 Stage::Shadow => Stage::Edges,
                 _ => {
                     self.book.finish_colors(&self.task);
@@ -384,14 +449,15 @@ impl Renderer {
     }
 
     fn put_colors(&mut self, pixels: &[usize], lit: bool) {
-        let Self { pool, book, task, .. } = self;
-        pool.install(|| book.put_colors(task, pixels, lit));
+        let Self { crew, book, task, .. } = self;
+        crew.install(|| book.put_colors(task, pixels, lit));
     }
 
     /// The work of the tiles of a batch in their order, up to the first that was not begun because of the stop flag.
     fn each<T: Send>(&self, batch: Range<usize>, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        let begin = |turn| (!self.stop.load(Ordering::Relaxed)).then(|| work(turn));
-        let found: Vec<Option<T>> = self.pool.install(|| batch.into_par_iter().map(begin).collect());
+        let Part { number, of } = self.part;
+        let begin = |turn| (!self.stop.load(Ordering::Relaxed)).then(|| work(number + turn * of));
+        let found: Vec<Option<T>> = self.crew.install(|| batch.into_par_iter().map(begin).collect());
         found.into_iter().map_while(|tile| tile).collect()
     }
 }

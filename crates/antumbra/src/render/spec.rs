@@ -110,19 +110,9 @@ impl Default for RenderSpec {
 /// How to run; nothing here changes a single bit of the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct RunSpec {
-    /// Threads; `None` takes all processors.
+    /// Threads; `None` takes all processors. Where a program cannot start threads itself (WebAssembly), they are those of rayon's
+    /// global pool, whatever is said here: the caller alone, unless somebody has built that pool.
     pub threads: Option<usize>,
-}
-
-impl RunSpec {
-    /// The threads.
-    ///
-    /// # Errors
-    /// [`Error::Threads`].
-    pub(crate) fn pool(self) -> Result<rayon::ThreadPool, Error> {
-        let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
-        builder.build().map_err(|e| Error::Threads(e.to_string()))
-    }
 }
 
 /// Why a picture cannot be begun.

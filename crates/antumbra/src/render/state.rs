@@ -1,7 +1,7 @@
 //! A render that was stopped, as bytes: what it is of, everything the [`Book`] knows, and a checksum.
 use super::RenderSpec;
 use super::book::Book;
-use super::renderer::Stage;
+use super::renderer::{Part, Stage};
 use crate::eval::Workspace;
 use crate::geom::Box3;
 use crate::scene::{Object, Scene, SceneFile};
@@ -50,6 +50,9 @@ pub enum StateError {
         /// As they are asked for.
         own: String,
     },
+    /// It cannot be joined.
+    #[error("it is no finished part of the picture, or one that is there already")]
+    Part,
     /// The picture that it belongs to cannot be begun.
     #[error(transparent)]
     Render(#[from] super::Error),
@@ -126,19 +129,12 @@ fn samples(object: &Object) -> Vec<Interval> {
 }
 
 /// How far a render is, with everything it knows.
-#[derive(Serialize)]
-struct Content<'a> {
-    stage: Stage,
-    tiles: usize,
-    book: &'a Book,
-}
-
-/// The same, read.
-#[derive(Deserialize)]
-pub(super) struct Stopped {
+#[derive(Serialize, Deserialize)]
+pub(super) struct Stopped<B = Book> {
     pub(super) stage: Stage,
+    pub(super) part: Part,
     pub(super) tiles: usize,
-    pub(super) book: Book,
+    pub(super) book: B,
 }
 
 /// Writes and hashes.
@@ -164,7 +160,7 @@ impl<W: Write> Write for Hashing<W> {
 pub(super) fn write(
     scene: &Scene,
     spec: &RenderSpec,
-    (stage, tiles, book): (Stage, usize, &Book),
+    how_far: &Stopped<&Book>,
     out: &mut dyn Write,
 ) -> Result<(), StateError> {
     let header = postcard::to_stdvec(&Header::new(scene, spec)?).map_err(io::Error::other)?;
@@ -175,7 +171,7 @@ pub(super) fn write(
         out.write_all(part)?;
     }
     let packed = lz4_flex::frame::FrameEncoder::new(&mut out);
-    let packed = postcard::to_io(&Content { stage, tiles, book }, packed).map_err(io::Error::other)?;
+    let packed = postcard::to_io(how_far, packed).map_err(io::Error::other)?;
     packed.finish().map_err(io::Error::other)?;
     let checksum = *out.hasher.finalize().as_bytes();
     out.out.write_all(&checksum)?;
@@ -222,7 +218,7 @@ pub(super) fn read(
     // Room for the names in it; numbers need none.
     let mut names = [0; 1024];
     let content = lz4_flex::frame::FrameDecoder::new(input);
-    let (stopped, _) = postcard::from_io::<Stopped, _>((content, &mut names)).map_err(|_| StateError::Damaged)?;
+    let (stopped, _) = postcard::from_io::<Stopped<Book>, _>((content, &mut names)).map_err(|_| StateError::Damaged)?;
     let fits = stopped.book.fits(spec.width, spec.height, lights);
     if fits { Ok(stopped) } else { Err(StateError::Damaged) }
 }

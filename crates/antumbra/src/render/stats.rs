@@ -100,6 +100,20 @@ impl Stats {
         }
     }
 
+    /// With those of another part of the same picture, which was drawn at the same time.
+    pub(super) fn join(&mut self, other: &Self) {
+        macro_rules! each {
+            ($combine:path: $($field:ident)*) => { $( self.$field = $combine(self.$field, other.$field); )* };
+        }
+        each!(std::ops::Add::add: threads hits floor_hits proved_empty proved_hit proved_partly undecided_resolution
+            undecided_touching undecided_domain undecided_budget lit partly dark brackets_open in_shadow_facing
+            initial_occluded false_alarms pixel_beams initial_beams beams primary_evaluations shadow_evaluations
+            edge_evaluations batched_questions batch_lanes);
+        // Each part builds the same grid.
+        each!(u64::max: grid_evaluations);
+        each!(f64::max: bracket_width_max grid_seconds primary_seconds shadow_seconds shading_seconds);
+    }
+
     /// As they were before the shadows, for another method.
     pub(super) fn forget_shadows(&mut self, method: &str) {
         let old = std::mem::take(self);

@@ -15,6 +15,7 @@
 //!
 //! [`shaft`] settles whole tiles of hits at once, [`visible`] one hit.
 #![deny(clippy::float_arithmetic)]
+mod known;
 mod ledger;
 mod occluders;
 mod policy;
@@ -23,7 +24,8 @@ mod second;
 mod shaft;
 mod visible;
 
+pub use known::{Known, Part};
 pub use occluders::Receiver;
 pub use second::{Claim, Says};
 pub use shaft::{Shaft, ShaftVerdict, shaft};
-pub use visible::{Bracket, Penumbra, Scratch, Tolerance, visible, whole_beam};
+pub use visible::{Bracket, Penumbra, Scratch, Tolerance, visible};

@@ -53,6 +53,17 @@ pub(super) fn long_in_shaft(t: Interval, distance: f64, size: f64, tile: f64) ->
     length * distance > SHAFT_ASPECT * width && length > SHORTEST
 }
 
+/// A light is divided for all hits of a tile if it is wider than so many tiles, and than this part of its distance: under a small light
+/// quadratic models settle most hits in one cell. Measured with lights four times as wide: 4 to 8 % fewer evaluations on three
+/// of the four scenes, 6 % more on the fourth, and on all four evaluations of a cheaper kind. Twice divided costs more.
+const TILES_IN_LIGHT: f64 = 4.0;
+const WIDE: f64 = 0.1;
+
+/// Whether a light of width `size`, at so great a distance, is to be divided for a tile.
+pub(super) fn divide_light(tile: f64, size: f64, distance: f64) -> bool {
+    size > TILES_IN_LIGHT * tile && size > WIDE * distance
+}
+
 /// The two halves of an interval.
 pub(super) fn halves(t: Interval) -> [Interval; 2] {
     let mid = t.mid();

@@ -1,4 +1,5 @@
 //! Shafts: one test for all hits of a tile of the screen.
+use super::known::Part;
 use super::occluders::{Receiver, fronts, hides, no_zero};
 use super::policy::{halves, long_in_shaft, shaft_slope_pays, size};
 use crate::eval::Workspace;
@@ -23,14 +24,14 @@ pub struct Shaft {
 }
 
 /// What a shaft test proved of all hits of its tile.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum ShaftVerdict {
-    /// Every one sees the whole light.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum ShaftVerdict<'a> {
+    /// Every one sees all of the part of the light.
     Lit,
     /// None sees any of it.
     Dark,
-    /// Neither: the pieces that stay open have been written.
-    Open,
+    /// Neither: in these pieces of the beam something may be in the way.
+    Open(&'a [Piece]),
 }
 
 impl Shaft {
@@ -65,6 +66,14 @@ impl Shaft {
         Some(shaft)
     }
 
+    /// Whether to divide the light for all hits of the tile: it is much wider than the tile, and seen under a wide angle.
+    #[must_use]
+    pub fn narrow_against(&self, light: &Rect) -> bool {
+        let unit = Interval::new(-1.0, 1.0);
+        let middle = Box3(self.apex.map(|x| x.range())).mid();
+        super::policy::divide_light(self.extent, size(light, unit, unit), (light.center - middle).length())
+    }
+
     /// Whether a plane fits so badly that dividing the tile is the better idea.
     #[must_use]
     pub fn rough(&self) -> bool {
@@ -72,36 +81,41 @@ impl Shaft {
     }
 }
 
-/// Tests the beams from all hits of a shaft to the whole light, in the given open pieces; those that stay open go to
-/// `open`.
-#[expect(clippy::too_many_arguments, reason = "the question, then the answer and the scratch memory of the thread")]
-pub fn shaft(
+/// Scratch memory.
+#[derive(Debug, Default)]
+pub(super) struct Scratch {
+    open: Vec<Piece>,
+    stack: Vec<Piece>,
+}
+
+/// Tests the beams from all hits of a shaft to a part of a light, in its open pieces.
+pub fn shaft<'a>(
     surfaces: &[Surface<'_>],
     shaft: &Shaft,
     light: &Rect,
-    pieces: &[Piece],
-    open: &mut Vec<Piece>,
-    stack: &mut Vec<Piece>,
+    part: &Part,
+    s: &'a mut super::Scratch,
     work: &mut Workspace,
     cost: &mut Cost,
-) -> ShaftVerdict {
+) -> ShaftVerdict<'a> {
     cost.beams += 1;
-    let unit = Interval::new(-1.0, 1.0);
+    let Scratch { open, stack } = &mut s.shaft;
+    let [u, v] = part.part;
     let apex = Box3(shaft.apex.map(|x| x.range()));
-    let whole = Fan::towards(apex, light, unit, unit);
+    let fan = Fan::towards(apex, light, u, v);
     let receiver = Receiver { point: apex, surface: shaft.surface, side: shaft.side };
-    let fronts = fronts(surfaces, &receiver, &whole, work, cost);
-    let (u, v) = (Affine::<5>::spanning(1, unit), Affine::<5>::spanning(2, unit));
+    let fronts = fronts(surfaces, &receiver, &fan, work, cost);
+    let width = size(light, u, v);
+    let (u, v) = (Affine::<5>::spanning(1, u), Affine::<5>::spanning(2, v));
     let direction: [Affine<5>; 3] = std::array::from_fn(|k| {
         (u.mul_f64(light.edge_u[k]) + v.mul_f64(light.edge_v[k])).add_f64(light.center[k]) - shaft.apex[k]
     });
     let directions = Box3(direction.map(|d| d.range()));
     let distance = (0..3).map(|k| directions[k].magnitude()).fold(0.0, f64::max);
-    let width = size(light, unit, unit);
     let passages: Vec<Passage> = surfaces.iter().map(|at| at.passage(&apex, &directions)).collect();
     open.clear();
     stack.clear();
-    stack.extend(pieces.iter().rev());
+    stack.extend(part.pieces.iter().rev());
     while let Some(Piece { surface, t }) = stack.pop() {
         let at = &surfaces[surface];
         let passage = passages[surface];
@@ -111,9 +125,9 @@ pub fn shaft(
         }
         let front = fronts[surface];
         cost.evaluations += 1;
-        let s = Affine::<5>::spanning(0, t);
+        let along = Affine::<5>::spanning(0, t);
         let point: [Slope<Affine<5>, 5>; 3] =
-            std::array::from_fn(|k| Slope::coordinate(shaft.apex[k], s, direction[k]));
+            std::array::from_fn(|k| Slope::coordinate(shaft.apex[k], along, direction[k]));
         let own = surface == shaft.surface;
         // At t = 0 only the slope tells anything.
         let form = if own && (shaft_slope_pays(t) || t.lo() == 0.0) {
@@ -155,7 +169,7 @@ pub fn shaft(
             open.push(Piece { surface, t });
         }
     }
-    if open.is_empty() { ShaftVerdict::Lit } else { ShaftVerdict::Open }
+    if open.is_empty() { ShaftVerdict::Lit } else { ShaftVerdict::Open(open) }
 }
 
 #[cfg(test)]

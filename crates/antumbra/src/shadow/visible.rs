@@ -1,4 +1,5 @@
 //! The visible fraction of a light from one hit.
+use super::known::{Known, Part};
 use super::ledger::{Ledger, area};
 use super::occluders::{Receiver, fronts};
 use super::policy::{self, quarters};
@@ -69,6 +70,7 @@ pub struct Tolerance {
 pub struct Scratch {
     rectangle: rectangle::Scratch,
     second: second::Scratch,
+    pub(super) shaft: super::shaft::Scratch,
     pieces: Vec<Piece>,
     ledger: Ledger<Range<usize>>,
 }
@@ -85,8 +87,7 @@ impl Scratch {
     }
 }
 
-/// The certified visible fraction of `light` from a hit, given the open pieces of its beam (by default all of `[0, 1]`
-/// for each surface: [`whole_beam`]).
+/// The certified visible fraction of `light` from a hit, given what is known of it (by default [`Known::nothing`]).
 ///
 /// Guarantee: `lo <= V <= hi` for the true hit. Cost: one evaluation settles most hits; in a penumbra some hundred.
 #[expect(clippy::too_many_arguments, reason = "the question, then the scratch memory of the thread")]
@@ -94,39 +95,46 @@ pub fn visible(
     surfaces: &[Surface<'_>],
     receiver: &Receiver,
     light: &Rect,
-    pieces: &[Piece],
+    known: &Known,
     tolerance: Tolerance,
     s: &mut Scratch,
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Bracket {
-    if pieces.is_empty() {
-        return Bracket::LIT;
+    if known.settled() {
+        let [lo, hi] = known.bounds();
+        return Bracket { lo, hi, reason: None, first_free: known.whole() && lo == 1.0 };
     }
     let unit = Interval::new(-1.0, 1.0);
     let whole = Fan::towards(receiver.point, light, unit, unit);
     let fronts = fronts(surfaces, receiver, &whole, work, cost);
     let query = Query { surfaces, receiver, fronts: &fronts, light };
-    let Scratch { rectangle, second, pieces: arena, ledger } = s;
+    let Scratch { rectangle, second, pieces: arena, ledger, .. } = s;
     let mut tried = !second::worth(tolerance, second);
-    let mut by_second = |pieces: &[Piece], s: &mut second::Scratch, work: &mut Workspace, cost: &mut Cost| {
-        let reach = if tried { None } else { second::reach(&query, &whole, pieces, work) }?;
+    let mut by_second = |known: &Known, s: &mut second::Scratch, work: &mut Workspace, cost: &mut Cost| {
+        let reach = if tried { None } else { second::reach(&query, &whole, known, work) }?;
         tried = true;
-        Some(second::fraction(&query, &reach, pieces, tolerance, s, work, cost))
+        Some(second::fraction(&query, &reach, known, tolerance, s, work, cost))
     };
     // A bracket of the second-order method.
     let mut other = [0.0, 1.0];
-    if let Some(found) = by_second(pieces, second, work, cost) {
+    if let Some(found) = by_second(known, second, work, cost) {
         if found.settles(tolerance) {
-            return found.bracket(tolerance);
+            return found.bracket(known, tolerance);
         }
         other = [found.lo, found.hi];
     }
     arena.clear();
-    arena.extend_from_slice(pieces);
     ledger.clear();
+    known.book(ledger);
     let (mut rectangles, most) = (0, cost.evaluations + policy::evaluations(tolerance.rectangles));
-    let mut parts = vec![([unit; 2], 0..arena.len())];
+    let mut parts = Vec::new();
+    for Part { part, pieces } in &known.open {
+        let begin = arena.len();
+        arena.extend_from_slice(pieces);
+        parts.push((*part, begin..arena.len()));
+    }
+    let inherited = arena.len();
     loop {
         for (part, pieces) in parts.drain(..) {
             rectangles += 1;
@@ -142,7 +150,8 @@ pub fn visible(
         }
         if rectangles == 1 {
             // What was too long a beam to be proved continuous may have become short.
-            if let Some(found) = by_second(&arena[pieces.len()..], second, work, cost) {
+            let shorter = known.with_pieces(&arena[inherited..]);
+            if let Some(found) = by_second(&shorter, second, work, cost) {
                 other = [found.lo, found.hi];
                 rectangles += found.cells;
                 if found.settles(tolerance) {
@@ -157,11 +166,5 @@ pub fn visible(
     let [lo, hi] = ledger.bounds();
     let (lo, hi) = (lo.max(other[0]), hi.min(other[1]));
     let reason = (sub_up(hi, lo) > tolerance.width).then_some(Reason::Budget);
-    Bracket { lo, hi, reason, first_free: rectangles == 1 && lo == 1.0 }
-}
-
-/// The open pieces when nothing is known: each surface, all the way to the light.
-#[must_use]
-pub fn whole_beam(surfaces: &[Surface<'_>]) -> Vec<Piece> {
-    (0..surfaces.len()).map(|surface| Piece { surface, t: Interval::new(0.0, 1.0) }).collect()
+    Bracket { lo, hi, reason, first_free: known.whole() && rectangles == 1 && lo == 1.0 }
 }

@@ -3,7 +3,7 @@ use super::exact::exact;
 use antumbra::eval::Workspace;
 use antumbra::geom::{Clip, Rect, Vec3};
 use antumbra::scene::Object;
-use antumbra::shadow::{Bracket, Penumbra, Receiver, Scratch, Tolerance, visible, whole_beam};
+use antumbra::shadow::{Bracket, Known, Penumbra, Receiver, Scratch, Tolerance, visible};
 use antumbra::trace::{Cost, Sign, Surface};
 use num_rational::BigRational;
 use num_traits::ToPrimitive;
@@ -38,7 +38,7 @@ impl Bench {
         let receiver = Receiver { point: at.to_box(), surface: 0, side: self.side(towards) };
         let tolerance = Tolerance { width, rectangles, penumbra: Penumbra::default() };
         let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
-        visible(&surfaces, &receiver, light, &whole_beam(&surfaces), tolerance, &mut scratch, &mut work, &mut cost)
+        visible(&surfaces, &receiver, light, &Known::nothing(&surfaces), tolerance, &mut scratch, &mut work, &mut cost)
     }
 
     /// Asks at both tolerances: each bracket must meet the enclosure `[truth.0, truth.1]` and be as narrow as asked for.

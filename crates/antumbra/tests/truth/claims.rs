@@ -6,7 +6,7 @@ use antumbra::eval::Workspace;
 use antumbra::geom::strips::Curve;
 use antumbra::geom::{Box3, Rect};
 use antumbra::scene::{Object, Scene};
-use antumbra::shadow::{Bracket, Claim, Penumbra, Receiver, Says, Scratch, Tolerance, visible, whole_beam};
+use antumbra::shadow::{Bracket, Claim, Known, Penumbra, Receiver, Says, Scratch, Tolerance, visible};
 use antumbra::trace::{Cost, Sign, Surface};
 use antumbra_interval::Interval;
 use antumbra_interval::quadratic::Paraboloid;
@@ -58,7 +58,7 @@ fn ask(objects: &[Object], hit: &Hit, light: &Rect, tolerance: Tolerance) -> (Br
         objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() }).collect();
     let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
     scratch.record_claims();
-    let (receiver, pieces) = (hit.receiver(), whole_beam(&surfaces));
+    let (receiver, pieces) = (hit.receiver(), Known::nothing(&surfaces));
     let bracket = visible(&surfaces, &receiver, light, &pieces, tolerance, &mut scratch, &mut work, &mut cost);
     (bracket, scratch.take_claims(), cost)
 }

@@ -16,6 +16,7 @@ mod cell;
 mod policy;
 mod slab;
 
+use super::known::{Known, Part};
 use super::ledger::{Ledger, Node, area};
 use super::rectangle::Query;
 use super::visible::{Bracket, Penumbra, Tolerance};
@@ -86,17 +87,17 @@ impl Fraction {
         tolerance.penumbra == Penumbra::Second || sub_up(self.hi, self.lo) <= tolerance.width
     }
 
-    pub(super) fn bracket(&self, tolerance: Tolerance) -> Bracket {
+    pub(super) fn bracket(&self, known: &Known, tolerance: Tolerance) -> Bracket {
         let reason = (sub_up(self.hi, self.lo) > tolerance.width).then_some(Reason::Budget);
-        Bracket { lo: self.lo, hi: self.hi, reason, first_free: self.cells == 1 && self.lo == 1.0 }
+        Bracket { lo: self.lo, hi: self.hi, reason, first_free: known.whole() && self.cells == 1 && self.lo == 1.0 }
     }
 }
 
 /// For each surface, the parameter up to which it is proved continuous on all rays, so that an opposite sign is a proof.
 /// `None` if the method does not apply to these pieces: then some surface has no front sign, or may break.
-pub(super) fn reach(query: &Query<'_>, whole: &Fan, pieces: &[Piece], work: &mut Workspace) -> Option<Vec<f64>> {
+pub(super) fn reach(query: &Query<'_>, whole: &Fan, known: &Known, work: &mut Workspace) -> Option<Vec<f64>> {
     let mut reach_of = |(surface, at): (usize, &Surface<'_>)| {
-        let mut of = pieces.iter().filter(|p| p.surface == surface).map(|p| p.t);
+        let mut of = known.open.iter().flat_map(|part| &part.pieces).filter(|p| p.surface == surface).map(|p| p.t);
         let Some(first) = of.next() else { return Some(0.0) };
         query.fronts[surface]?;
         if at.function.continuous_everywhere() {
@@ -117,11 +118,11 @@ pub(super) fn worth(tolerance: Tolerance, s: &mut Scratch) -> bool {
     }
 }
 
-/// The visible fraction, given the open pieces of the beam to the whole light.
+/// The visible fraction, given what is known of the light.
 pub(super) fn fraction(
     query: &Query<'_>,
     reach: &[f64],
-    pieces: &[Piece],
+    known: &Known,
     tolerance: Tolerance,
     s: &mut Scratch,
     work: &mut Workspace,
@@ -133,10 +134,14 @@ pub(super) fn fraction(
         _ => u64::MAX,
     };
     ledger.clear();
+    known.book(ledger);
     slabs.clear();
-    slabs.extend(whole_slabs(pieces));
     parts.clear();
-    parts.push(([Interval::new(-1.0, 1.0); 2], (0, slabs.len())));
+    for Part { part, pieces } in &known.open {
+        let begin = slabs.len();
+        slabs.extend(whole_slabs(pieces));
+        parts.push((*part, (begin, slabs.len())));
+    }
     let mut cells = 0;
     loop {
         while let Some((part, (from, to))) = parts.pop() {

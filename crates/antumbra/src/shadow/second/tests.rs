@@ -7,7 +7,7 @@ use crate::geom::{Box3, Clip, Rect, Sheet, Vec3};
 use crate::shadow::ledger::Ledger;
 use crate::shadow::occluders::Front;
 use crate::shadow::rectangle::Query;
-use crate::shadow::{Penumbra, Receiver, Says, Scratch, Tolerance, visible, whole_beam};
+use crate::shadow::{Known, Penumbra, Receiver, Says, Scratch, Tolerance, visible};
 use crate::trace::{Cost, Piece, Sign, Surface};
 use antumbra_interval::affine::{Affine, Jet};
 use antumbra_interval::quadratic::Quadratic;
@@ -106,7 +106,7 @@ fn claims_about_two_valleys_hold_on_dense_rays() {
             let (mut scratch, mut work, mut cost) = (Scratch::default(), Workspace::default(), Cost::default());
             scratch.record_claims();
             let tolerance = Tolerance { width, rectangles: 4000, penumbra: Penumbra::Second };
-            let pieces = whole_beam(&surfaces);
+            let pieces = Known::nothing(&surfaces);
             let b = visible(&surfaces, &receiver, &light, &pieces, tolerance, &mut scratch, &mut work, &mut cost);
             assert!(b.hi - b.lo <= width, "{b:?}");
             let n = 60;

@@ -1,0 +1,200 @@
+// Draws off the page's thread: first a coarse picture at once, then the whole, until the next request comes. Several workers share a
+// whole picture: each proves its part of the tiles, and the first one joins them and does the rest.
+import { Engine } from "./engine.js";
+
+/** A coarse picture should take about so many milliseconds; it has as many pixels as that allows. */
+const COARSE_TIME = 120;
+/** Sides of coarse pictures, in pixels. */
+const COARSE = { least: 32, most: 160 };
+/** What a coarse picture asks for: brackets of the light as wide as this. What it says is proved all the same. */
+const COARSE_PROOF = { tolerance: 1 / 16, rectangles: 16 };
+/** A coarse picture that takes longer gives way to the next request. */
+const PATIENCE = 1000;
+/** A picture that will take so many milliseconds is shared with other workers: to join a part takes a quarter of a second. */
+const SHARE_FROM = 4000;
+/** How much longer a picture of n times as many pixels takes: n to this power, for the paper's surfaces. */
+const GROWTH = 0.6;
+/** Work between two looks at the messages, and time between two pictures. */
+const SLICE = 30;
+const SHOW = 120;
+
+let engine = null;
+let next = null;
+let running = false;
+let shown = { id: 0, overlay: "", fine: false };
+/** Parts that others have done of what is drawn, and who waits for one. */
+let parts = [];
+let wake = () => {};
+/** Milliseconds per pixel of the last coarse picture. */
+let pace = 0.03;
+
+const { port1, port2 } = new MessageChannel();
+/** Lets waiting messages in. */
+function breathe() {
+  return new Promise((resolve) => {
+    port1.onmessage = resolve;
+    port2.postMessage(null);
+  });
+}
+
+const actions = {
+  start({ module }) {
+    engine = new Engine(module);
+    postMessage({ type: "ready" });
+  },
+  gallery() {
+    postMessage({ type: "gallery", gallery: engine.gallery() });
+  },
+  draw: begin,
+  assist: begin,
+  stop: begin,
+  join(part) {
+    parts.push(part);
+    wake();
+  },
+  overlay({ overlay }) {
+    shown.overlay = overlay;
+    if (shown.id > 0) show(shown.done);
+  },
+  inspect({ column, row }) {
+    postMessage({ type: "pixel", pixel: shown.fine ? engine.pixel(column, row) : null });
+  },
+  png() {
+    const bytes = engine.png(shown.overlay);
+    postMessage({ type: "png", bytes }, [bytes.buffer]);
+  },
+};
+
+onmessage = ({ data }) => attempt(() => actions[data.type](data));
+
+async function attempt(action) {
+  try {
+    await action();
+  } catch (error) {
+    // A trap: the module's memory is in an unknown state, and the page starts another worker.
+    postMessage({ type: "failed", message: engine?.panic() || String(error) });
+  }
+}
+
+/** Whatever is going on gives way to this. */
+function begin(message) {
+  next = message;
+  wake();
+  if (!running) run();
+}
+
+async function run() {
+  const works = { draw, assist, stop() {} };
+  running = true;
+  while (next) {
+    const message = next;
+    next = null;
+    postMessage({ type: "taken", count: message.count });
+    await attempt(() => works[message.type](message));
+    if (!next) postMessage({ type: "idle", count: message.count });
+  }
+  running = false;
+}
+
+/** Proves a part of a picture that another worker draws. */
+async function assist({ id, request, overlay, part }) {
+  shown = { id, overlay, fine: true, part: part[0] };
+  engine.open({ ...request, part });
+  await finish(false);
+  if (next) return;
+  const state = engine.state();
+  postMessage({ type: "part", id, state }, [state.buffer]);
+  // From here on the first worker knows more.
+  shown.id = 0;
+}
+
+/** Works and shows until the picture, or the part of it, is finished, or something else is to be done. */
+async function finish(whole) {
+  let last = performance.now();
+  for (;;) {
+    const done = engine.refine(SLICE);
+    if (done || performance.now() - last > SHOW) {
+      show(done && whole);
+      last = performance.now();
+    }
+    if (done) return;
+    await breathe();
+    if (next) return;
+  }
+}
+
+async function draw({ id, request, overlay, thumbnail, workers, share }) {
+  const began = performance.now();
+  parts = [];
+  postMessage({ type: "phase", id, phase: "coarse" });
+  shown = { id, overlay, fine: false };
+  if (thumbnail) {
+    const { error } = engine.open({ ...request, ...COARSE_PROOF });
+    while (!error && !engine.refine(SLICE) && performance.now() - began < thumbnail);
+    show(true);
+    return;
+  }
+  const { width, height } = coarse(request);
+  const scene = engine.open({
+    ...request,
+    width,
+    height,
+    tolerance: Math.max(request.tolerance, COARSE_PROOF.tolerance),
+    rectangles: COARSE_PROOF.rectangles,
+  });
+  if (scene.error) {
+    postMessage({ type: "refused", id, error: scene.error });
+    return;
+  }
+  postMessage({ type: "scene", id, scene });
+  const opened = performance.now();
+  let done = false;
+  while (!done) {
+    done = engine.refine(SLICE);
+    if (done || performance.now() - opened < PATIENCE) continue;
+    show(false);
+    await breathe();
+    if (next) return;
+  }
+  pace = (performance.now() - opened) / (width * height);
+  show(true);
+  await breathe();
+  if (next) return;
+
+  const forecast = (performance.now() - opened) * ((request.width * request.height) / (width * height)) ** GROWTH;
+  const shared = workers > 1 && (share || forecast > SHARE_FROM);
+  postMessage({ type: "phase", id, phase: "fine", shared });
+  engine.open(shared ? { ...request, part: [0, workers] } : request);
+  shown = { id, overlay: shown.overlay, fine: true, part: 0 };
+  await finish(!shared);
+  if (!shared) return;
+  for (let missing = workers - 1; missing > 0 && !next; missing -= 1) {
+    parts = parts.filter((part) => part.id === id);
+    if (parts.length === 0) await new Promise((resolve) => (wake = resolve));
+    const part = parts.shift();
+    if (part?.id === id) engine.join(part.state);
+    else missing += 1;
+  }
+  if (!next) {
+    shown.joined = true;
+    await finish(true);
+  }
+}
+
+/** The size of a coarse picture: of the same shape, as large as the time allows. */
+function coarse({ width, height }) {
+  const shorter = Math.min(width, height);
+  const side = Math.sqrt((COARSE_TIME / pace) * (shorter / Math.max(width, height)));
+  const aim = Math.min(shorter, Math.max(COARSE.least, Math.min(COARSE.most, 16 * Math.floor(side / 16))));
+  return { width: Math.round((width * aim) / shorter), height: Math.round((height * aim) / shorter) };
+}
+
+function show(done) {
+  shown.done = done;
+  const { id, overlay, fine, part, joined } = shown;
+  const report = engine.report();
+  // Under a fine picture lies the coarse one: a pixel covers it when its light is known.
+  const pixels = engine.pixels(overlay, fine && !done);
+  const legend = overlay ? engine.legend(overlay) : [];
+  postMessage({ type: "picture", id, fine, part, joined, done, pixels, report, legend }, [pixels.buffer]);
+}
