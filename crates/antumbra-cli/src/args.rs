@@ -17,6 +17,7 @@ pub(crate) use serve::ServeArgs;
 use crate::{
     failure::EXIT_CODES,
     values::{self, Assignment, Device, Size, Span},
+    view::ViewArgs,
 };
 
 /// Pictures of implicit surfaces f(x, y, z) = 0 with soft shadows from area lights.
@@ -30,6 +31,7 @@ pub(crate) struct Args {
 #[derive(Debug, Subcommand)]
 pub(crate) enum Command {
     Render(RenderArgs),
+    View(ViewArgs),
     Compare(CompareArgs),
     Paper(PaperArgs),
     Audit(AuditArgs),

@@ -80,6 +80,7 @@ fn every_command_of_the_pages_is_one() {
             };
             let scene = match args.command {
                 Command::Render(args) => args.scene,
+                Command::View(args) => args.scene,
                 Command::Compare(args) => args.scene,
                 Command::Audit(args) => args.frame,
                 Command::Scene(SceneCommand::Show { scene } | SceneCommand::Check { scene }) => scene,

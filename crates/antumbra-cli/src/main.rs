@@ -16,6 +16,7 @@ mod output;
 mod progress;
 mod unfinished;
 mod values;
+mod view;
 
 use std::process::ExitCode;
 

@@ -12,6 +12,7 @@ mod record;
 mod render;
 mod scene;
 mod serve;
+mod view;
 
 use std::{
     sync::atomic::Ordering,
@@ -44,6 +45,7 @@ pub(crate) fn run(args: Args) -> Result<()> {
         Command::Paper(args) => paper::run(&PaperOptions::new(args)),
         Command::Audit(args) => audit::run(&AuditOptions::new(args)?),
         Command::Gallery(args) => gallery::run(&GalleryOptions::new(args)?),
+        Command::View(args) => view::run(&args),
         Command::Scene(command) => scene::run(&command),
         Command::Info => info::run(),
         Command::Serve(args) => serve::run(&args),

@@ -3,8 +3,9 @@
 use crate::bench::Bench;
 use predicates::str::contains;
 
-const COMMANDS: [&[&str]; 13] = [
+const COMMANDS: [&[&str]; 14] = [
     &["render"],
+    &["view"],
     &["compare"],
     &["paper"],
     &["audit"],

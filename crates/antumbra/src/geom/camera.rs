@@ -33,6 +33,25 @@ impl Camera {
     }
 }
 
+impl Camera {
+    /// Where a point is seen: its film coordinates, in [-1, 1] where it is in the picture, and its parameter along the view axis;
+    /// `None` behind the camera. Rounded: for handles that are drawn over a picture.
+    #[must_use]
+    pub fn project(&self, point: Vec3) -> Option<([f64; 2], f64)> {
+        let to = point - self.eye;
+        // right and up are square to forward.
+        let t = to.dot(self.forward);
+        let film = |axis: Vec3| to.dot(axis) / (t * axis.dot(axis));
+        (t > 0.0).then(|| ([film(self.right), film(self.up)], t))
+    }
+
+    /// The point at film coordinates and a parameter along the view axis: the inverse of [`Camera::project`].
+    #[must_use]
+    pub fn point(&self, [x, y]: [f64; 2], t: f64) -> Vec3 {
+        self.eye + (self.forward + self.right * x + self.up * y) * t
+    }
+}
+
 /// Tangent of an angle in degrees.
 fn tan_deg(angle_deg: f64) -> f64 {
     core_math::tan(angle_deg.to_radians())
@@ -123,6 +142,17 @@ mod tests {
         let film = Film { camera, width: 4, height: 2 };
         let d = film.ray(3, 0).direction.mid();
         assert!(d[0] > 0.0 && d[2] > 0.0, "the last pixel of the top row is up and right");
+    }
+
+    #[test]
+    fn points_are_seen_where_their_rays_go() {
+        let camera = Camera::look_at(Vec3::new(4.0, -2.0, 2.0), Vec3::default(), 30.5, 1.5);
+        let p = Vec3::new(0.3, -0.2, 0.5);
+        let (film, t) = camera.project(p).unwrap();
+        assert!((camera.point(film, t) - p).length() < 1e-12);
+        assert!(camera.project(Vec3::new(8.0, -4.0, 4.0)).is_none(), "it is behind");
+        let ([x, y], _) = camera.project(Vec3::default()).unwrap();
+        assert!(x.abs() < 1e-12 && y.abs() < 1e-12, "the target is in the middle");
     }
 
     #[test]

@@ -1,7 +1,7 @@
 //! The tables of a scene file, and what they mean.
 use super::file::{FileError, finite, value_error};
 use super::{Coloring, Error, Field, Finish, Light, Object, extent};
-use crate::expr::Formula;
+use crate::expr::{self, Formula};
 use crate::geom::{Box3, Clip, Rect, Vec3};
 use crate::tape::Tape;
 use antumbra_interval::Interval;
@@ -172,20 +172,29 @@ impl SurfaceEntry {
     /// The surface, with the scene's parameters defined before its formula.
     pub(super) fn object(&self, key: &str, definitions: &str) -> Result<Object, FileError> {
         let named = |part: &str| format!("{key}.{part}");
-        let formula_error = |part: &str, text: &str, e: &Error| FileError::Formula {
-            key: named(part),
-            message: match e {
-                Error::Formula(e) => e.render(text),
-                Error::Tape(e) => e.to_string(),
-            },
+        // Said of what was written: without the definitions that stand before it here.
+        let formula_error = |part: &str, text: &str, own: &str, e: &Error| {
+            let shift = |e: &expr::Error| text.strip_suffix(own).map(str::len).filter(|shift| e.span().start >= *shift);
+            let (message, place) = match e {
+                Error::Formula(e) => match shift(e) {
+                    Some(shift) => {
+                        let place = e.span().start - shift..e.span().end - shift;
+                        (e.clone().moved(own, place.clone()).render(own), Some(place))
+                    }
+                    None => (e.render(text), None),
+                },
+                Error::Tape(e) => (e.to_string(), None),
+            };
+            FileError::Formula { key: named(part), message, place }
         };
         let written = format!("{definitions}{}", self.formula);
         // First as it is, so that an error speaks of what was written.
-        let plain = Object::parse(&written, Clip::Everywhere).map_err(|e| formula_error("formula", &written, &e))?;
+        let plain = Object::parse(&written, Clip::Everywhere)
+            .map_err(|e| formula_error("formula", &written, &self.formula, &e))?;
         let clip = self.clip.map(|c| c.clip(&named("clip"))).transpose()?;
         let text = self.composed(&written, clip.as_ref(), &named)?;
         let object = if text == written { Ok(plain) } else { Object::parse(&text, Clip::Everywhere) };
-        let object = object.map_err(|e| formula_error("formula", &text, &e))?;
+        let object = object.map_err(|e| formula_error("formula", &text, &text, &e))?;
         let clip = match clip {
             // What closes the solid must not be cut off.
             Some(clip) if self.caps == Some(true) => Clip::Box(roomy(&clip.bounds())),
@@ -214,7 +223,7 @@ impl SurfaceEntry {
                     return Err(value_error(named("field"), "`from` and `to` are the same value"));
                 }
                 let text = format!("{definitions}{}", field.formula);
-                let error = |e: &Error| formula_error("field.formula", &text, e);
+                let error = |e: &Error| formula_error("field.formula", &text, &field.formula, e);
                 let formula = Formula::parse(&text).map_err(|e| error(&e.into()))?;
                 let tape = Tape::compile(&formula).map_err(|e| error(&e.into()))?;
                 // Complete in itself: whoever prints the scene prints no parameters.
@@ -230,8 +239,11 @@ impl SurfaceEntry {
         if self.transform.is_none() && !caps {
             return Ok(text.to_owned());
         }
-        let [definitions, mut solid] =
-            Formula::split(text).map_err(|e| FileError::Formula { key: named("formula"), message: e.render(text) })?;
+        let [definitions, mut solid] = Formula::split(text).map_err(|e| FileError::Formula {
+            key: named("formula"),
+            message: e.render(text),
+            place: None,
+        })?;
         if let Some(TransformEntry { scale, rotate, translate }) = self.transform {
             if let Some(s) = scale {
                 finite(&named("transform.scale"), &[s])?;

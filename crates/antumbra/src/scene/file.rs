@@ -104,6 +104,8 @@ pub enum FileError {
         key: String,
         /// The formula's error, with its excerpt.
         message: String,
+        /// Its place in the text at the key, in bytes, where known.
+        place: Option<Range<usize>>,
     },
 }
 
@@ -264,6 +266,23 @@ impl SceneFile {
             self.parameters.iter().map(|(name, p)| format!("{name} = ({:?}); ", p.value())).collect();
         let object = |(k, entry): (usize, &SurfaceEntry)| entry.object(&format!("surface[{}]", k + 1), &definitions);
         let objects = self.surface.iter().enumerate().map(object).collect::<Result<Vec<_>, _>>()?;
+        self.staged(name, objects)
+    }
+
+    /// The scene around the surfaces of another one, whose file has the same surfaces and parameters: everything that takes long
+    /// is there already.
+    ///
+    /// # Errors
+    /// [`FileError::Value`], with the key; also where the number of surfaces differs.
+    pub fn scene_like(&self, built: &Scene) -> Result<Scene, FileError> {
+        if self.surface.len() != built.objects.len() {
+            return Err(value_error("surface", "the other scene has another number of them"));
+        }
+        self.staged(&built.name, built.objects.clone())
+    }
+
+    /// Light, camera and looks around surfaces.
+    fn staged(&self, name: &str, objects: Vec<Object>) -> Result<Scene, FileError> {
         let title = self.title.clone().unwrap_or_else(|| name.to_owned());
         let mut scene = framing::scene(name.to_owned(), title, objects);
         scene.about = self.about.clone();

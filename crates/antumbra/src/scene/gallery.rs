@@ -52,7 +52,8 @@ pub fn file_named(name: &str) -> Option<Result<SceneFile, FileError>> {
 }
 
 fn of_preset(name: &str) -> Option<Result<Scene, FileError>> {
-    let refuse = |e: super::Error| FileError::Formula { key: format!("preset {name}"), message: e.to_string() };
+    let refuse =
+        |e: super::Error| FileError::Formula { key: format!("preset {name}"), message: e.to_string(), place: None };
     Some(preset(name)?.map_err(refuse))
 }
 

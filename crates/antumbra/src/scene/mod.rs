@@ -9,6 +9,7 @@ mod gallery;
 mod light;
 mod look;
 mod object;
+mod orbit;
 mod parameter;
 mod place;
 mod presets;
@@ -23,6 +24,7 @@ pub use gallery::{GALLERY, GalleryEntry, file_named, named, names};
 pub use light::Light;
 pub use look::{Automatic, Backdrop, ColorMap, Coloring, Exposure, Field, Finish, Look, Output, Reflection, Sky, Tone};
 pub use object::{Colors, Error, Object};
+pub use orbit::Orbit;
 pub use parameter::number;
 pub use presets::{PRESETS, Preset, preset};
 
