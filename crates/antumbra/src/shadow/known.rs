@@ -131,7 +131,7 @@ mod tests {
         known.open(open);
         known.open(other);
         let [lo, hi] = known.bounds();
-        assert!(lo <= 0.25 && lo > 0.25 - 1e-12 && hi >= 0.75 && hi < 0.75 + 1e-12, "[{lo}, {hi}]");
+        assert!(lo <= 0.25 && lo > 0.25 - 1e-12 && (0.75..0.75 + 1e-12).contains(&hi), "[{lo}, {hi}]");
         assert!(!known.settled());
     }
 
