@@ -35,8 +35,8 @@ fn draw(rows: &[Row], path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     chart
         .configure_mesh()
         .disable_y_mesh()
-        .bold_line_style(BLACK.mix(0.25))
-        .light_line_style(BLACK.mix(0.07))
+        .bold_line_style(RGBColor(190, 190, 190))
+        .light_line_style(RGBColor(232, 232, 232))
         .x_desc("CPU seconds")
         .y_labels(rows.len())
         .y_label_formatter(&|y| names.get(y.round() as usize).copied().unwrap_or_default().to_owned())
@@ -52,7 +52,7 @@ fn draw(rows: &[Row], path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     chart
         .configure_series_labels()
         .position(SeriesLabelPosition::LowerRight)
-        .border_style(BLACK.mix(0.3))
+        .border_style(RGBColor(170, 170, 170))
         .background_style(WHITE)
         .draw()?;
     area.present()?;
