@@ -1,6 +1,6 @@
 // The page: what hands do becomes a state, the state becomes a request, pictures come back.
 import { compile } from "./engine.js";
-import { Painter } from "./painter.js";
+import { MOST, Painter } from "./painter.js";
 import { Gallery } from "./gallery.js";
 import { lightAngles, lightCenter, orbit, zoom } from "./camera.js";
 import { USUAL, fromHash, toHash } from "./link.js";
@@ -19,7 +19,8 @@ const formula = $("#formula");
 
 let state = fromHash(location.hash);
 /** For measurements: `?workers=2` in the address makes so many share every picture. */
-const workers = Number(new URLSearchParams(location.search).get("workers")) || null;
+const wanted = Math.floor(Number(new URLSearchParams(location.search).get("workers"))) || 0;
+const workers = wanted > 0 ? Math.min(wanted, MOST) : null;
 /** The scene as the heart describes it: its own camera, light, parameters. */
 let scene = null;
 /** Formulas by the names of the gallery. */
@@ -58,6 +59,8 @@ function draw() {
 function change(changes) {
   state = { ...state, ...changes };
   Object.assign(log, { asked: performance.now(), first: 0, finished: 0, done: false, refused: null });
+  // What was said of a pixel was said of the picture before.
+  $("#pixel").textContent = "";
   draw();
 }
 
@@ -75,7 +78,7 @@ function canvasOf(pixels) {
   return part;
 }
 
-function onPicture({ id, fine, part, joined, done, pixels, report, legend }) {
+function onPicture({ id, fine, part, joined, done, tolerance, pixels, report, legend }) {
   const came = canvasOf(pixels);
   if (!fine) coarse = came;
   else {
@@ -99,7 +102,7 @@ function onPicture({ id, fine, part, joined, done, pixels, report, legend }) {
   log.drawn += 1;
   Object.assign(log, { report, done: fine && done });
   if (log.done) log.finished = performance.now();
-  tell(fine, done, fine ? together(whole.reports) : report);
+  tell(fine, done, fine ? together(whole.reports) : report, tolerance);
   if (!fine || part === 0) showLegend(legend);
 }
 
@@ -120,7 +123,7 @@ const percent = (part, whole) => {
   return `${part === whole ? "100" : Math.min(share, 99.99).toFixed(share > 99 ? 2 : 1)} %`;
 };
 
-function tell(fine, done, report) {
+function tell(fine, done, report, tolerance) {
   const proved = report.proved_empty + report.proved_hit + report.proved_edge;
   const bar = $("#progress");
   bar.value = fine ? report.progress : 0;
@@ -128,7 +131,7 @@ function tell(fine, done, report) {
   $("#status").textContent = !fine
     ? "A coarse picture; each of its pixels is proved or says that it is not"
     : done
-      ? `Proved: ${percent(proved, report.pixels)} of the pixels; the light to 1/${state.tolerance} at ` +
+      ? `Proved: ${percent(proved, report.pixels)} of the pixels; the light to 1/${Math.round(1 / tolerance)} at ` +
         `${percent(report.brackets_closed, report.brackets)} of the hits`
       : `Proving: ${report.activity} …`;
   const seconds = report.seconds < 10 ? report.seconds.toFixed(1) : Math.round(report.seconds);
@@ -208,8 +211,9 @@ function onFailed({ message }) {
 
 // The inspector
 
-function onPixel({ pixel }) {
+function onPixel({ asked, pixel }) {
   const line = $("#pixel");
+  if (asked !== painter.id) return;
   if (!pixel) {
     line.textContent = "";
     return;
@@ -236,7 +240,7 @@ function inspect({ clientX, clientY }) {
   const box = canvas.getBoundingClientRect();
   const column = Math.floor(((clientX - box.left) / box.width) * canvas.width);
   const row = Math.floor(((clientY - box.top) / box.height) * canvas.height);
-  if (column >= 0 && row >= 0) painter?.ask({ type: "inspect", column, row });
+  if (column >= 0 && row >= 0) painter?.ask({ type: "inspect", id: painter.id, column, row });
 }
 
 // Hands on the picture
@@ -395,7 +399,7 @@ function showParameters(parameters) {
   }
   for (const { name, value } of parameters) {
     const input = section.querySelector(`input[name="${CSS.escape(name)}"]`);
-    const now = state.set[name] ?? value;
+    const now = Object.hasOwn(state.set, name) ? state.set[name] : value;
     if (document.activeElement !== input) input.value = now;
     output(input, now.toPrecision(3));
   }

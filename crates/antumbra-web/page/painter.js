@@ -4,7 +4,9 @@
 /** Milliseconds after which a worker that draws something older is replaced: in a coarse picture, and in a fine one. */
 const PATIENCE = { coarse: 2500, fine: 150 };
 /** Most workers, and most for pictures of more pixels than this: each holds a picture of its own, half a kilobyte for each pixel. */
-const MOST = 6;
+export const MOST = 6;
+/** Times that a worker that never came to be is tried again. */
+const FAILURES = 3;
 const LARGE = { pixels: 600_000, most: 2 };
 
 /** As many as there are processors, within reason. */
@@ -21,6 +23,8 @@ class Hand {
   #worker;
   #ready;
   #waiting;
+  #last = null;
+  #failures = 0;
 
   constructor(module, hear) {
     this.#module = module;
@@ -38,6 +42,7 @@ class Hand {
       if (worker !== this.#worker) return;
       if (data.type === "ready") {
         this.#ready = true;
+        this.#failures = 0;
         this.#waiting.splice(0).forEach(([message, transfer]) => this.ask(message, transfer));
       } else {
         if (data.type === "taken") this.stale = false;
@@ -50,6 +55,17 @@ class Hand {
     this.#worker = worker;
   }
 
+  /** The same, after a failure: a worker that cannot even be loaded is not tried for ever. */
+  recover() {
+    this.#failures += 1;
+    if (this.#failures <= FAILURES) this.replace();
+  }
+
+  /** What it was given last. */
+  get last() {
+    return this.#last;
+  }
+
   ask(message, transfer = []) {
     if (!this.#ready) this.#waiting.push([message, transfer]);
     else this.#worker.postMessage(message, transfer);
@@ -60,6 +76,7 @@ class Hand {
     this.stale = this.busy;
     this.busy = true;
     this.#count += 1;
+    this.#last = message;
     this.ask({ ...message, count: this.#count });
   }
 
@@ -99,7 +116,7 @@ export class Painter {
       if (message.id === this.#id && message.shared) this.#dealOut();
     }
     if (message.type === "idle") this.#phase = this.#lead.busy ? this.#phase : "idle";
-    if (message.type === "failed") this.#lead.replace();
+    if (message.type === "failed") this.#lead.recover();
     // What was drawn for an older request still shows where the hand is, unless it is refused or fine.
     if (message.id !== undefined && message.id !== this.#id && (message.fine || message.type !== "picture")) return;
     this.#handlers[message.type]?.(message);
@@ -144,7 +161,14 @@ export class Painter {
     const late = this.#helpers.filter((hand) => hand.busy);
     late.forEach((hand) => hand.work({ type: "stop" }));
     clearTimeout(this.#lateness);
-    this.#lateness = setTimeout(() => late.filter((hand) => hand.stale).forEach((hand) => hand.replace()), PATIENCE.fine);
+    this.#lateness = setTimeout(() => {
+      for (const hand of late.filter((hand) => hand.stale)) {
+        const { last } = hand;
+        hand.replace();
+        // It may have been given its part of the picture while it did not listen.
+        if (last?.type === "assist" && last.id === this.#id) hand.work(last);
+      }
+    }, PATIENCE.fine);
     this.#lead.work(message);
   }
 

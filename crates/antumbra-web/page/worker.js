@@ -56,8 +56,8 @@ const actions = {
     shown.overlay = overlay;
     if (shown.id > 0) show(shown.done);
   },
-  inspect({ column, row }) {
-    postMessage({ type: "pixel", pixel: shown.fine ? engine.pixel(column, row) : null });
+  inspect({ id, column, row }) {
+    postMessage({ type: "pixel", asked: id, pixel: shown.fine ? engine.pixel(column, row) : null });
   },
   png() {
     const bytes = engine.png(shown.overlay);
@@ -96,10 +96,16 @@ async function run() {
   running = false;
 }
 
+/** Begins a picture that could be begun before, when it was coarse. */
+function open(request) {
+  const { error } = engine.open(request);
+  if (error) throw new Error(error.message ?? String(error));
+}
+
 /** Proves a part of a picture that another worker draws. */
 async function assist({ id, request, overlay, part }) {
-  shown = { id, overlay, fine: true, part: part[0] };
-  engine.open({ ...request, part });
+  shown = { id, overlay, fine: true, part: part[0], tolerance: request.tolerance };
+  open({ ...request, part });
   await finish(false);
   if (next) return;
   const state = engine.state();
@@ -127,6 +133,7 @@ async function draw({ id, request, overlay, thumbnail, workers, share }) {
   const began = performance.now();
   parts = [];
   postMessage({ type: "phase", id, phase: "coarse" });
+  const before = shown;
   shown = { id, overlay, fine: false };
   if (thumbnail) {
     const { error } = engine.open({ ...request, ...COARSE_PROOF });
@@ -143,6 +150,8 @@ async function draw({ id, request, overlay, thumbnail, workers, share }) {
     rectangles: COARSE_PROOF.rectangles,
   });
   if (scene.error) {
+    // The engine still has the picture before, which is not to be shown as one of this request.
+    shown = { ...before, id: 0 };
     postMessage({ type: "refused", id, error: scene.error });
     return;
   }
@@ -164,8 +173,8 @@ async function draw({ id, request, overlay, thumbnail, workers, share }) {
   const forecast = (performance.now() - opened) * ((request.width * request.height) / (width * height)) ** GROWTH;
   const shared = workers > 1 && (share || forecast > SHARE_FROM);
   postMessage({ type: "phase", id, phase: "fine", shared });
-  engine.open(shared ? { ...request, part: [0, workers] } : request);
-  shown = { id, overlay: shown.overlay, fine: true, part: 0 };
+  open(shared ? { ...request, part: [0, workers] } : request);
+  shown = { id, overlay: shown.overlay, fine: true, part: 0, tolerance: request.tolerance };
   await finish(!shared);
   if (!shared) return;
   for (let missing = workers - 1; missing > 0 && !next; missing -= 1) {
@@ -191,10 +200,10 @@ function coarse({ width, height }) {
 
 function show(done) {
   shown.done = done;
-  const { id, overlay, fine, part, joined } = shown;
+  const { id, overlay, fine, part, joined, tolerance } = shown;
   const report = engine.report();
   // Under a fine picture lies the coarse one: a pixel covers it when its light is known.
   const pixels = engine.pixels(overlay, fine && !done);
   const legend = overlay ? engine.legend(overlay) : [];
-  postMessage({ type: "picture", id, fine, part, joined, done, pixels, report, legend }, [pixels.buffer]);
+  postMessage({ type: "picture", id, fine, part, joined, done, tolerance, pixels, report, legend }, [pixels.buffer]);
 }

@@ -20,6 +20,8 @@ const MOST_PIXELS: usize = 1 << 23;
 pub struct Studio {
     built: Option<Built>,
     renderer: Option<Renderer>,
+    /// Nothing is left to do, as far as the last look at it told.
+    finished: bool,
     clock: Option<Clock>,
 }
 
@@ -120,13 +122,14 @@ impl Studio {
         if let Some([number, of]) = request.part {
             renderer.take_part(number, of);
         }
-        self.renderer = Some(renderer);
+        (self.renderer, self.finished) = (Some(renderer), false);
         Ok(description)
     }
 
     /// Goes on with the picture for about that time; tells whether it, or the part of it, is finished, or there is none.
     pub fn refine(&mut self, budget: Duration) -> bool {
-        self.renderer.as_mut().is_none_or(|renderer| renderer.refine(budget))
+        self.finished = self.renderer.as_mut().is_none_or(|renderer| renderer.refine(budget));
+        self.finished
     }
 
     /// Everything that is known of the picture, for [`Studio::join`] of another studio; empty where there is none.
@@ -142,6 +145,7 @@ impl Studio {
     /// Takes over a finished part from the state of another studio; an empty text, or why it cannot.
     pub fn join(&mut self, state: &[u8]) -> String {
         let Some(renderer) = &mut self.renderer else { return "there is no picture".to_owned() };
+        self.finished = false;
         renderer.join(&mut Cursor::new(state)).err().map(|e| e.to_string()).unwrap_or_default()
     }
 
@@ -152,7 +156,7 @@ impl Studio {
         let stats = renderer.stats();
         let classes = stats.lit + stats.partly + stats.dark;
         json(&Report {
-            done: renderer.progress() >= 1.0,
+            done: self.finished,
             progress: renderer.progress(),
             activity: renderer.activity().0,
             remaining: renderer.remaining().map(|t| t.as_secs_f64()),

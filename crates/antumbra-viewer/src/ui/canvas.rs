@@ -168,7 +168,10 @@ impl App {
             let (column, row) = pixel(image.size);
             crate::worker::is_settled(&image.frame, row * image.size[0] + column)
         });
-        let Some(image) = known.or(side.base.as_ref().map(|p| &p.image)) else { return };
+        // What lies below may be the picture before: of that nothing is said.
+        let now = side.best().map(|image| image.revision);
+        let below = side.base.as_ref().map(|p| &p.image).filter(|image| Some(image.revision) == now);
+        let Some(image) = known.or(below) else { return };
         let (column, row) = pixel(image.size);
         let tolerance = self.model.document().tolerance();
         let lines = inspect::lines(&image.frame, image.method, tolerance, row * image.size[0] + column);

@@ -122,6 +122,8 @@ impl Painter {
                 steps.push_back(Step { side, method: *method, size, first, last });
             }
         }
+        // What was drawn of another picture is never shown as one of this.
+        self.shown.clear();
         self.painting = Some(Painting { job, scene, begun, steps, current: None, spent: (0.0, 0) });
     }
 
@@ -170,9 +172,11 @@ impl Painter {
                     painting.current = Some(Current { step, renderer, begun, shown: begun, pause: OFTEN });
                 }
                 Err(error) => {
-                    painting.steps.clear();
+                    let revision = painting.job.revision;
+                    self.painting = None;
+                    self.shown.clear();
                     let refusal = Refusal { message: error.to_string(), place: None };
-                    tell(Event::Refused { revision: painting.job.revision, refusal });
+                    tell(Event::Refused { revision, refusal });
                     return None;
                 }
             }
@@ -206,8 +210,9 @@ impl Painter {
                 let pixels = step.size[0] * step.size[1];
                 // It would have taken longer: how much is not known.
                 self.pace.measured(pixels, 2.0 * current.begun.elapsed().as_secs_f64());
+                // The newer job takes its place; if that cannot be built, or is the same picture shown in another way, it is drawn after all.
                 painting.current = None;
-                painting.steps.clear();
+                painting.steps.push_front(step);
                 return;
             }
         } else {

@@ -1,6 +1,6 @@
 use super::*;
 use antumbra::{
-    render::{Frame, RenderSpec, Renderer},
+    render::{Frame, Overlay, RenderSpec, Renderer},
     scene::{CameraEntry, SceneFile, file_named},
 };
 use std::time::Instant;
@@ -72,6 +72,29 @@ fn bad_scenes_are_refused_with_their_place_and_work_goes_on() {
     let huge = format!("x{}", " + x".repeat(400_000));
     worker.submit(job(5, &huge));
     assert!(finish(&worker, 5).1.unwrap().message.contains("the most is"));
+}
+
+#[test]
+fn a_first_picture_that_was_given_up_is_drawn_after_all() {
+    let worker = worker();
+    worker.submit(job(1, "x^2 + y^2 + z^2 = 1"));
+    assert_eq!(finish(&worker, 1).1, None);
+    // Its first picture takes long; meanwhile it is asked for in another way, which builds nothing anew.
+    let file = file_named("twister").unwrap().unwrap();
+    let heavy = Job { file, name: "twister".to_owned(), size: [96, 96], ..job(2, "") };
+    worker.submit(heavy.clone());
+    std::thread::sleep(Duration::from_millis(400));
+    worker.submit(Job { revision: 3, overlay: Some(Overlay::Verdict), ..heavy });
+    loop {
+        match worker.wait(LONG).expect("the thread answers") {
+            Event::Image(image) if image.revision == 3 && image.whole => {
+                assert_eq!(image.size[0], image.size[1], "the picture before, as if it were this one");
+                return;
+            }
+            Event::Done { revision: 3, .. } => panic!("nothing was drawn"),
+            _ => {}
+        }
+    }
 }
 
 #[test]

@@ -123,9 +123,9 @@ impl Renderer {
 
     /// Draws only part `number` of `of`, the tiles being dealt out in turn: to be called before it begins. When [`refine`](Self::refine)
     /// has done the part, it is to be saved for another renderer of the same picture to [`join`](Self::join), or to join the others.
-    /// Panics unless `number < of`.
+    /// Panics unless `number < of`, and where it has begun.
     pub fn take_part(&mut self, number: usize, of: usize) {
-        assert!(number < of, "part {number} of {of}");
+        assert!(number < of && self.stage == Stage::Grid, "part {number} of {of}, before it begins");
         self.part = Part { number, of };
     }
 
