@@ -264,6 +264,8 @@ impl<'a> Run<'a> {
         let base = Frame { base: top * whole.width, ..whole };
         let across = whole.width.div_ceil(8);
         let tiles = across * rows.div_ceil(8);
+        // What a dispatch that failed silently left unwritten must not be what was written for another band.
+        self.gpu.clear(&[&self.found]);
         self.stage(0, 0, Frame { first: top / 8 * across, count: tiles, ..base }, tiles, 1, work)?;
         let mut found: Vec<[u32; 4]> = self.gpu.read(&self.found)?;
         found.truncate(pixels as usize);

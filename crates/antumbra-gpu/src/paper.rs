@@ -153,8 +153,10 @@ impl Paper {
             go(&mut out, 2, Frame { first, count: part, ..frame }, part.div_ceil(64))?;
         }
         out.initial_occluded = gpu.read_first(&list)? as usize;
-        for first in (0..out.initial_occluded as u32).step_by(ITEMS as usize / 16) {
-            go(&mut out, 3, Frame { first, count: ITEMS / 16, ..frame }, GROUPS)?;
+        let beams = self.constants.sub_beams.pow(2).max(1);
+        let items = (ITEMS / 16).min((1 << 30) / beams).max(1);
+        for first in (0..out.initial_occluded as u32).step_by(items as usize) {
+            go(&mut out, 3, Frame { first, count: items, ..frame }, GROUPS)?;
         }
         let hit = |f: &[u32; 4]| (f[0] == 1).then(|| [f32::from_bits(f[1]), f32::from_bits(f[2])]);
         out.hits = gpu.read::<[u32; 4]>(&found)?.iter().map(hit).collect();

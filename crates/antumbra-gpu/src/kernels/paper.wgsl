@@ -257,10 +257,11 @@ fn initial(@builtin(global_invocation_id) id: vec3<u32>) {
 fn sub_beams(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
              @builtin(local_invocation_index) local: u32) {
     let n = paper.sub_beams;
-    let end = min(frame.first + frame.count, atomicLoad(&list.count)) * n * n;
+    // Counted from the first item of this dispatch, whose host sees to it that the numbers fit.
+    let end = (min(frame.first + frame.count, atomicLoad(&list.count)) - frame.first) * n * n;
     var total = 0u;
-    for (var number = frame.first * n * n + group.x * 64u + local; number < end; number += groups.x * 64u) {
-        let index = list.items[number / (n * n)];
+    for (var number = group.x * 64u + local; number < end; number += groups.x * 64u) {
+        let index = list.items[frame.first + number / (n * n)];
         let tile = number % (n * n);
         var evaluations = 0u;
         if possibly_blocked(index, tile % n, tile / n, n, &evaluations) { atomicAdd(&blocked[index], 1u); }

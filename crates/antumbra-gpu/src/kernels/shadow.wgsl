@@ -106,6 +106,8 @@ fn half_plane(k: f32, a: f32, b: f32) -> f32 {
 // Looks at a part of the light with all surfaces, between the parameters `from` and `until`. Where planes are wanted, they bound the shares
 // of the lit and of the hidden part.
 fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: u32, until: u32) -> Shares {
+    // No stretch at all is an item that was counted and never written: nothing is known of it.
+    if until <= from_ { return Shares(0.0, 0.0, from_, until); }
     let ray = beam_of(hit, m, h);
     let distance = max(abs(ray.c.x), max(abs(ray.c.y), abs(ray.c.z)));
     let size = 2.0 * max(length(ray.i), length(ray.j));
