@@ -80,8 +80,8 @@ fn a_first_picture_that_was_given_up_is_drawn_after_all() {
     worker.submit(job(1, "x^2 + y^2 + z^2 = 1"));
     assert_eq!(finish(&worker, 1).1, None);
     // Its first picture takes long; meanwhile it is asked for in another way, which builds nothing anew.
-    let file = file_named("twister").unwrap().unwrap();
-    let heavy = Job { file, name: "twister".to_owned(), size: [96, 96], ..job(2, "") };
+    let file = file_named("barth-decic").unwrap().unwrap();
+    let heavy = Job { file, name: "barth-decic".to_owned(), size: [96, 96], ..job(2, "") };
     worker.submit(heavy.clone());
     std::thread::sleep(Duration::from_millis(400));
     worker.submit(Job { revision: 3, overlay: Some(Overlay::Verdict), ..heavy });
