@@ -21,10 +21,12 @@ fn picture(name: &str, size: usize, threads: usize) -> (Times, Stats) {
     let (clock, all) = (Instant::now(), ProcessTime::now());
     let mut renderer = Renderer::new(scene, spec, RunSpec { threads: Some(threads) }).expect("a valid spec");
     let (mut surfaces, mut light) = (0.0, 0.0);
+    // Alone, a thread stops after every tile, so that each is booked on its pass; several would wait for each other.
+    let budget = if threads == 1 { Duration::ZERO } else { Duration::from_secs(1) };
     loop {
         let (stage, _, _) = renderer.activity();
         let begin = ProcessTime::now();
-        let done = renderer.refine(Duration::ZERO);
+        let done = renderer.refine(budget);
         let seconds = begin.elapsed().as_secs_f64();
         match stage.split(':').next() {
             Some("surface") => surfaces += seconds,
