@@ -40,6 +40,7 @@ fn syntax() {
         ("max(x,)", Syntax, ")", 1, 7, "`)` after `,`; expected an expression"),
         ("a = ; x", Syntax, "", 1, 4, "ends after `=`"),
         ("x^", Syntax, "", 1, 3, "ends after `^`"),
+        ("x^2 + y^ + z", Syntax, "+", 1, 10, "expected"),
         ("y = 1 +\n\n)", ErrorKind::Parenthesis, ")", 3, 1, "closes nothing"),
         ("x ^^ y", Syntax, "^", 1, 4, "`^` after `^`"),
     ]);
