@@ -1,7 +1,10 @@
 //! A picture drawn in parts is the picture drawn by one, bit for bit; what is no part is refused.
-use antumbra::image::npy_bytes;
-use antumbra::render::{Method, RenderSpec, Renderer, RunSpec, StateError, Stats};
+#[path = "renders/result.rs"]
+mod result;
+
+use antumbra::render::{Method, RenderSpec, Renderer, RunSpec, StateError};
 use antumbra::scene::preset;
+use result::result;
 use std::io::Cursor;
 use std::sync::Arc;
 use std::time::Duration;
@@ -25,17 +28,6 @@ fn saved(renderer: &Renderer) -> Vec<u8> {
     let mut state = vec![];
     renderer.save(&mut state).unwrap();
     state
-}
-
-/// Every plane as the bytes of its file, and the counters.
-fn result(renderer: &Renderer) -> (Vec<Vec<u8>>, Stats) {
-    let planes = renderer.frame().planes().unwrap();
-    let mut stats = renderer.stats();
-    stats.threads = 0;
-    let times = [&mut stats.grid_seconds, &mut stats.primary_seconds, &mut stats.shadow_seconds];
-    times.into_iter().for_each(|t| *t = 0.0);
-    (stats.shading_seconds, stats.seconds) = (0.0, 0.0);
-    (planes.iter().map(|plane| npy_bytes(plane).unwrap()).collect(), stats)
 }
 
 #[test]

@@ -1,7 +1,10 @@
 //! A render that is saved and resumed is the render at one go, bit for bit; a state that does not fit is refused.
-use antumbra::image::npy_bytes;
-use antumbra::render::{Error, Method, RenderSpec, Renderer, RunSpec, StateError, Stats};
+#[path = "renders/result.rs"]
+mod result;
+
+use antumbra::render::{Error, Method, RenderSpec, Renderer, RunSpec, StateError};
 use antumbra::scene::{Scene, preset};
+use result::result;
 use std::io::Cursor;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -27,17 +30,6 @@ fn saved(renderer: &Renderer) -> Vec<u8> {
 
 fn resumed(name: &str, spec: &RenderSpec, run: RunSpec, state: &[u8]) -> Result<Renderer, StateError> {
     Renderer::resume(scene(name), spec.clone(), run, &mut Cursor::new(state))
-}
-
-/// Every plane as the bytes of its file, and the statistics without what may differ.
-fn result(renderer: &Renderer) -> (Vec<Vec<u8>>, Stats) {
-    let planes = renderer.frame().planes().unwrap();
-    let mut stats = renderer.stats();
-    stats.threads = 0;
-    let times = [&mut stats.grid_seconds, &mut stats.primary_seconds, &mut stats.shadow_seconds];
-    times.into_iter().for_each(|t| *t = 0.0);
-    (stats.shading_seconds, stats.seconds) = (0.0, 0.0);
-    (planes.iter().map(|plane| npy_bytes(plane).unwrap()).collect(), stats)
 }
 
 #[test]
