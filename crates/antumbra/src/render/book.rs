@@ -1,16 +1,18 @@
 //! What is known of the picture so far: the frame, its hits, and the statistics.
 use super::by_proof::BLOCK;
-use super::crease::apart;
+use super::crease::{Grids, apart};
+use super::frame::slide;
 use super::hits::Hits;
 use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
 use super::task::Task;
-use super::{Frame, LightPlanes, Method, Stats};
-use crate::trace::Cost;
+use super::{Frame, LightPlanes, Method, RenderSpec, Stats};
+use crate::eval::Occupancy;
 use crate::verdict::{Reason, Verdict};
 use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
+use std::ops::Range;
 
 /// Frame, hits and statistics: all that a state holds of a render. Written by one thread; what is in it when the last tile
 /// is done does not depend on the order of the tiles.
@@ -26,11 +28,12 @@ pub(super) struct Book {
 }
 
 impl Book {
-    pub(super) fn new(frame: Frame, method: Method, threads: usize) -> Self {
-        let (width, height) = (frame.width, frame.height);
-        let (method, lights) = (method.name().to_owned(), frame.lights.len());
+    pub(super) fn new(frame: Frame, spec: &RenderSpec, threads: usize) -> Self {
+        let (width, height) = (spec.width, spec.height);
+        let (method, lights) = (spec.method.name().to_owned(), frame.lights.len());
         let stats = Stats { method, width, height, threads, lights, ..Stats::default() };
-        let (hits, primary_cost) = (Hits::none(width * height), vec![0; width * height]);
+        let pixels = frame.verdict.len();
+        let (hits, primary_cost) = (Hits::none(pixels), vec![0; pixels]);
         Self { frame, stats, hits, edges: BTreeMap::new(), primary_cost }
     }
 
@@ -77,6 +80,18 @@ impl Book {
         self.edges.extend(other.edges);
         self.stats.join(&other.stats);
         true
+    }
+
+    /// Forgets the first pixels, a whole number of rows, and makes room for as many unseen ones at the end as there are then too few.
+    pub(super) fn slide(&mut self, forget: usize, pixels: usize) {
+        self.frame.slide(forget, pixels);
+        self.hits.slide(forget, pixels);
+        slide(&mut self.primary_cost, forget, pixels, 0);
+        self.edges = std::mem::take(&mut self.edges)
+            .split_off(&forget)
+            .into_iter()
+            .map(|(index, edge)| (index - forget, edge))
+            .collect();
     }
 
     /// Whether every pixel was looked at.
@@ -183,7 +198,7 @@ impl Book {
     /// Colour of a pixel that shows one hit, or nothing. `lit_as` is the pixel whose light it has; before that is known
     /// it is lit.
     fn color(&self, task: &Task, index: usize, hit: Option<&Hit>, lit_as: Option<usize>) -> [f32; 3] {
-        let (column, row) = (index % task.film.width, index / task.film.width);
+        let (column, row) = task.place(index);
         let backdrop = shade::backdrop(&task.scene.backdrop, &task.film, column as f64 + 0.5, row as f64 + 0.5);
         let Some(hit) = hit else { return backdrop.map(|c| c as f32) };
         // All hits of the paper's methods are undecided; there it would say nothing.
@@ -202,15 +217,15 @@ impl Book {
 
     /// Of some pixels those that show an edge within what they meet, and have no grid of rays yet.
     pub(super) fn creases(&self, task: &Task, pixels: impl Iterator<Item = usize>) -> Vec<usize> {
-        let (width, height) = (task.film.width, task.film.height);
-        let crease = |index: &usize| {
-            let (index, column, row) = (*index, index % width, index / width);
+        let (width, rows) = (task.film.width, task.window.held());
+        let crease = |&index: &usize| {
+            let (column, row) = task.place(index);
             let Some(hit) = self.hits.at(index).copied().filter(|hit| hit.receiver.is_some()) else { return false };
             let beside = [
                 (column > 0, index.wrapping_sub(1)),
                 (column + 1 < width, index + 1),
-                (row > 0, index.wrapping_sub(width)),
-                (row + 1 < height, index + width),
+                (row > rows.start, index.wrapping_sub(width)),
+                (row + 1 < rows.end, index + width),
             ];
             let differs = |at: usize| self.hits.at(at).is_some_and(|other| apart(&hit, other));
             !self.edges.contains_key(&index) && beside.into_iter().any(|(inside, at)| inside && differs(at))
@@ -218,30 +233,37 @@ impl Book {
         pixels.filter(crease).collect()
     }
 
+    /// How full batches were.
+    pub(super) fn put_occupancy(&mut self, occupancy: &Occupancy) {
+        self.stats.batched_questions += occupancy.questions;
+        self.stats.batch_lanes += occupancy.lanes;
+    }
+
     /// Grids of rays of such pixels.
-    pub(super) fn put_creases(&mut self, (edges, cost): (Vec<(usize, Edge)>, Cost)) {
+    pub(super) fn put_creases(&mut self, (edges, cost, occupancy): Grids) {
+        self.put_occupancy(&occupancy);
         self.edges.extend(edges);
         self.stats.edge_evaluations += cost.evaluations;
     }
 
-    /// The colours that depend on neighbouring pixels, when those are known: of what may be a surface, and of edges.
-    pub(super) fn finish_colors(&mut self, task: &Task) {
-        for index in 0..self.hits.pixels() {
+    /// The colours of pixels that depend on their neighbours, when those are known: of what may be a surface, and of edges.
+    pub(super) fn finish_colors(&mut self, task: &Task, pixels: Range<usize>) {
+        for index in pixels.clone() {
             if let Some(hit) =
                 self.hits.at(index).copied().filter(|hit| task.method == Method::Certified && hit.receiver.is_none())
             {
                 self.frame.rgb[index] = self.color(task, index, Some(&hit), None);
             }
         }
-        self.shade_edges(task);
+        self.shade_edges(task, pixels);
     }
 
     /// Smooth edges: the mean colour of the grid of rays of each pixel that an edge crosses. The light of a ray's hit is
     /// that of the nearest hit in the neighbourhood. Where no ray of the grid meets the thing that is known, or not
     /// excluded, to be there, it shows all the same.
-    fn shade_edges(&mut self, task: &Task) {
-        let mut colors = Vec::with_capacity(self.edges.len());
-        for (&index, edge) in &self.edges {
+    fn shade_edges(&mut self, task: &Task, pixels: Range<usize>) {
+        let mut colors = Vec::new();
+        for (&index, edge) in self.edges.range(pixels) {
             let mut sum = [0.0_f32; 3];
             for sub in &edge.rays {
                 let lit_as = sub.as_ref().and_then(|hit| self.light_near(task, index, hit));
@@ -301,10 +323,11 @@ impl Book {
 
 /// Indices of a pixel and those around it.
 fn neighbours(task: &Task, index: usize) -> impl Iterator<Item = usize> + use<> {
-    let (width, height) = (task.film.width, task.film.height);
-    let (column, row) = (index % width, index / width);
+    let (width, held) = (task.film.width, task.window.held());
+    let (column, row) = task.place(index);
     let columns = column.saturating_sub(1)..(column + 2).min(width);
-    (row.saturating_sub(1)..(row + 2).min(height)).flat_map(move |y| columns.clone().map(move |x| y * width + x))
+    let rows = row.saturating_sub(1).max(held.start)..(row + 2).min(held.end);
+    task.indices(rows).step_by(width).flat_map(move |left| columns.clone().map(move |column| left + column))
 }
 
 /// How strongly a pixel shows something that may be there and that no ray of its grid meets.

@@ -27,7 +27,7 @@ pub(super) fn primary(task: &Task, grids: &[Grid], pixels: impl Iterator<Item = 
     let (world, mut work) = (world(task, grids), Workspace::default());
     pixels
         .map(|index| {
-            let (column, row) = (index % task.film.width, index / task.film.width);
+            let (column, row) = task.place(index);
             let beam = if rays { task.film.ray(column, row) } else { task.film.beam(column, row) };
             let mut cost = Cost::default();
             let fan = task.film.fan(column..column + 1, row..row + 1);
@@ -55,7 +55,8 @@ pub(super) fn shadows(
     hits.flat_map(|(index, point)| lights().map(move |(k, light)| (index, point, k, light)))
         .map(|(index, point, light, Emitter { rect, .. })| {
             // Other random rays for each light.
-            let salt = index as u64 ^ (light as u64) << 48;
+            let (column, row) = task.place(index);
+            let salt = (row * task.film.width + column) as u64 ^ (light as u64) << 48;
             let found = shadow(&world, &task.settings, method, point, rect, salt, &mut work);
             let visible = 1.0 - found.index;
             Light {

@@ -14,9 +14,10 @@ pub(super) type Block = (usize, usize, usize);
 
 /// Indices of the pixels of a block, row by row.
 pub(super) fn indices(task: &Task, (column, row, side): Block) -> impl Iterator<Item = usize> + use<> {
-    let (width, height) = (task.film.width, task.film.height);
+    let width = task.film.width;
     let columns = column..(column + side).min(width);
-    (row..(row + side).min(height)).flat_map(move |row| columns.clone().map(move |column| row * width + column))
+    let rows = task.indices(row..(row + side).min(task.window.held().end));
+    rows.step_by(width).flat_map(move |left| columns.clone().map(move |column| left + column))
 }
 
 /// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one. Brackets that are
@@ -57,7 +58,10 @@ pub(super) fn shadows<'a>(
         if hits.len() >= 2 {
             let placed: Vec<(u32, u32, &Receiver)> = hits
                 .iter()
-                .map(|(index, r)| ((index % task.film.width) as u32, (index / task.film.width) as u32, *r))
+                .map(|(index, r)| {
+                    let (column, row) = task.place(*index);
+                    (column as u32, row as u32, *r)
+                })
                 .collect();
             if let Some(fit) = Shaft::fit(&placed)
                 && (side <= 4 || !fit.rough())

@@ -5,6 +5,7 @@ use super::pixel::{Edge, Hit};
 use super::spare::Scratch;
 use super::task::{Asked, Task};
 use super::visibility::EDGE_RAYS;
+use crate::eval::Occupancy;
 use crate::geom::Beam;
 use crate::trace::{Cost, Frustum, Known, Meeting, Ray, first_meetings, narrow};
 
@@ -20,14 +21,16 @@ pub(super) fn apart(a: &Hit, b: &Hit) -> bool {
     a.object != b.object || a.normal.dot(b.normal) < BEND || off > STEP * between.length()
 }
 
+/// The grids of rays of some pixels, what they cost, and how full their batches were.
+pub(super) type Grids = (Vec<(usize, Edge)>, Cost, Occupancy);
+
 /// What a grid of rays meets in each of some pixels.
-pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> (Vec<(usize, Edge)>, Cost) {
+pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> Grids {
     const RAYS: usize = EDGE_RAYS * EDGE_RAYS;
     let surfaces = task.surfaces();
     let Scratch { work, frusta, rays, hits } = scratch;
-    let place = |index: usize| (index % task.film.width, index / task.film.width);
     let fan = |&index: &usize| {
-        let (column, row) = place(index);
+        let (column, row) = task.place(index);
         task.film.fan(column..column + 1, row..row + 1)
     };
     let fans: Vec<_> = pixels.iter().map(fan).collect();
@@ -41,7 +44,7 @@ pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> (Ve
     let beams: Vec<Beam> = pixels
         .iter()
         .flat_map(|&index| {
-            let (column, row) = place(index);
+            let (column, row) = task.place(index);
             (0..RAYS).map(move |k| task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS))
         })
         .collect();
@@ -60,5 +63,5 @@ pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> (Ve
         grids[k / RAYS][k % RAYS] = Some(hit);
     });
     let edges = pixels.iter().zip(grids).map(|(&index, rays)| (index, Edge { rays, thin: None })).collect();
-    (edges, cost)
+    (edges, cost, work.take_occupancy())
 }

@@ -55,6 +55,12 @@ impl LightPlanes {
     }
 }
 
+/// Forgets the first elements of a plane, and fills it up with new ones to that length.
+pub(super) fn slide<T: Clone>(plane: &mut Vec<T>, forget: usize, length: usize, value: T) {
+    plane.drain(..forget);
+    plane.resize(length, value);
+}
+
 impl Frame {
     /// The code of a pixel that nobody has looked at yet.
     pub const UNSEEN: u8 = 255;
@@ -97,7 +103,51 @@ impl Frame {
                 rgb: plane(n, [0.0; 3])?,
             })
         };
-        make().ok_or(Error::Memory { width, height, bytes: n * (61 + 21 * lights) })
+        make().ok_or(Error::Memory { width, height, bytes: n * Self::bytes_per_pixel(lights) })
+    }
+
+    /// Forgets the first pixels, a whole number of rows, and fills up with unseen ones to so many.
+    pub(super) fn slide(&mut self, forget: usize, pixels: usize) {
+        self.height = pixels / self.width;
+        slide(&mut self.verdict, forget, pixels, Self::UNSEEN);
+        slide(&mut self.t_lo, forget, pixels, f64::NAN);
+        slide(&mut self.t_hi, forget, pixels, f64::NAN);
+        slide(&mut self.normal, forget, pixels, [0.0; 3]);
+        for light in &mut self.lights {
+            slide(&mut light.visible_lo, forget, pixels, f64::NAN);
+            slide(&mut light.visible_hi, forget, pixels, f64::NAN);
+            slide(&mut light.facing, forget, pixels, 0.0);
+            slide(&mut light.initial_occluded, forget, pixels, false);
+        }
+        slide(&mut self.coverage_lo, forget, pixels, 0.0);
+        slide(&mut self.coverage_hi, forget, pixels, 1.0);
+        slide(&mut self.cost, forget, pixels, 0);
+        slide(&mut self.rgb, forget, pixels, [0.0; 3]);
+    }
+
+    /// Some of its rows.
+    #[must_use]
+    pub fn rows(&self, rows: std::ops::Range<usize>) -> Self {
+        let part = rows.start * self.width..rows.end * self.width;
+        let light = |light: &LightPlanes| LightPlanes {
+            visible_lo: light.visible_lo[part.clone()].to_vec(),
+            visible_hi: light.visible_hi[part.clone()].to_vec(),
+            facing: light.facing[part.clone()].to_vec(),
+            initial_occluded: light.initial_occluded[part.clone()].to_vec(),
+        };
+        Self {
+            width: self.width,
+            height: rows.len(),
+            verdict: self.verdict[part.clone()].to_vec(),
+            t_lo: self.t_lo[part.clone()].to_vec(),
+            t_hi: self.t_hi[part.clone()].to_vec(),
+            normal: self.normal[part.clone()].to_vec(),
+            lights: self.lights.iter().map(light).collect(),
+            coverage_lo: self.coverage_lo[part.clone()].to_vec(),
+            coverage_hi: self.coverage_hi[part.clone()].to_vec(),
+            cost: self.cost[part.clone()].to_vec(),
+            rgb: self.rgb[part.clone()].to_vec(),
+        }
     }
 
     /// The code of a verdict in the plane [`Frame::verdict`]: 0 no, 1 yes, 2 resolution, 3 touching, 4 domain, 5 budget.

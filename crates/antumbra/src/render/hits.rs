@@ -20,6 +20,14 @@ impl Hits {
         self.places.len()
     }
 
+    /// Forgets the first pixels; there are then so many, the last of them without hits.
+    pub(super) fn slide(&mut self, forget: usize, pixels: usize) {
+        let old = std::mem::replace(self, Self::none(pixels));
+        for (index, place) in old.places.iter().skip(forget).enumerate() {
+            self.put(index, place.checked_sub(1).map(|place| old.hits[place as usize]));
+        }
+    }
+
     /// Whether every number is that of a hit: what is read from a file may be anything.
     pub(super) fn holds(&self) -> bool {
         self.places.iter().all(|place| *place as usize <= self.hits.len())

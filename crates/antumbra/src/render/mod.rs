@@ -2,6 +2,7 @@
 //!
 //! *What* to draw is a [`RenderSpec`], *how* to run a [`RunSpec`]. A [`Renderer`] is asked to `refine` for a while, and
 //! shows its `frame` and `stats` at any time: command line, viewer, web page and Python use nothing else.
+mod bands;
 mod book;
 mod by_paper;
 mod by_proof;
@@ -15,6 +16,7 @@ mod irradiance;
 mod overlay;
 mod pixel;
 mod planes;
+mod progress;
 mod renderer;
 mod shade;
 mod spare;
@@ -23,6 +25,7 @@ mod state;
 mod stats;
 mod task;
 mod visibility;
+mod window;
 
 pub use crew::Clock;
 pub(crate) use crew::Crew;

@@ -9,6 +9,7 @@ use super::spare::Spare;
 use super::state::{self, StateError, Stopped};
 use super::task::Task;
 use super::visibility;
+use super::window::Window;
 use super::{Error, Frame, Method, RenderSpec, RunSpec, Stats};
 use crate::eval::Occupancy;
 use crate::grid::Grid;
@@ -26,16 +27,16 @@ use std::time::Duration;
 /// [`stats`](Self::stats) whenever you like. The frame is the same, bit for bit, for any number of threads and any
 /// budgets, and whether it was drawn at one go or saved and resumed.
 pub struct Renderer {
-    task: Task,
+    pub(super) task: Task,
     spec: RenderSpec,
     crew: Crew,
     clock: Clock,
     grids: Vec<Grid>,
-    book: Book,
+    pub(super) book: Book,
     given: Option<Given>,
-    stage: Stage,
+    pub(super) stage: Stage,
     part: Part,
-    next_tile: usize,
+    pub(super) next_tile: usize,
     stop: Arc<AtomicBool>,
     spare: Spare,
 }
@@ -47,6 +48,7 @@ pub(super) enum Stage {
     Primary,
     Shadow,
     Edges,
+    /// All that is held is finished.
     Done,
     /// The part is done, and the others are awaited.
     Parted,
@@ -69,11 +71,24 @@ impl Renderer {
     /// # Errors
     /// A spec out of range, no memory, no threads.
     pub fn new(scene: Arc<Scene>, spec: RenderSpec, run: RunSpec) -> Result<Self, Error> {
+        let rows = spec.height;
+        Self::in_bands(scene, spec, run, rows)
+    }
+
+    /// A renderer that holds a band of at least that many rows at a time, so that memory is bounded whatever the size of the picture: when
+    /// [`refine`](Self::refine) has finished a band, take its rows ([`finished_rows`](Self::finished_rows)) and go on to the
+    /// [`next_band`](Self::next_band). All rows are those of a picture that is drawn at one go, bit for bit, and in the end so are the
+    /// statistics. Up to 64 rows are held beside those of the band.
+    ///
+    /// # Errors
+    /// As for [`Renderer::new`].
+    pub fn in_bands(scene: Arc<Scene>, spec: RenderSpec, run: RunSpec, rows: usize) -> Result<Self, Error> {
         spec.validate()?;
-        let frame = Frame::new(spec.width, spec.height, scene.lights.len())?;
+        let window = Window::first(spec.height, rows);
+        let frame = Frame::new(spec.width, window.held().len(), scene.lights.len())?;
         let crew = run.crew()?;
-        let task = Task::new(scene, &spec)?;
-        let book = Book::new(frame, spec.method, crew.size());
+        let task = Task::new(scene, &spec, window)?;
+        let book = Book::new(frame, &spec, crew.size());
         let (stage, stop) = (Stage::Grid, Arc::default());
         let spare = Spare::default();
         let (grids, clock, part) = (Vec::new(), std_clock, Part::WHOLE);
@@ -86,8 +101,10 @@ impl Renderer {
     /// # Errors
     /// Those of `out`.
     pub fn save(&self, out: &mut dyn Write) -> Result<(), StateError> {
-        let how_far = Stopped { stage: self.stage, part: self.part, tiles: self.next_tile, book: &self.book };
-        state::write(&self.task.scene, &self.spec, &how_far, out)
+        let (task, book) = (&self.task, &self.book);
+        let window = task.window.clone();
+        let how_far = Stopped { stage: self.stage, part: self.part, tiles: self.next_tile, window, book };
+        state::write(&task.scene, &self.spec, &how_far, out)
     }
 
     /// A renderer that goes on where the saved one was. Frame and statistics will be those of a render at one go, bit for
@@ -104,14 +121,16 @@ impl Renderer {
         run: RunSpec,
         input: &mut (impl Read + Seek),
     ) -> Result<Self, StateError> {
-        let mut renderer = Self::new(scene, spec, run)?;
-        let (task, threads) = (&renderer.task, renderer.crew.size());
-        let Stopped { stage, part, tiles, book } = state::read(&task.scene, &renderer.spec, task.lights.len(), input)?;
-        renderer.part = part;
+        spec.validate()?;
+        let Stopped { stage, part, tiles, window, book } = state::read(&scene, &spec, input)?;
+        // It has planes of its own.
+        let mut renderer = Self::in_bands(scene, spec, run, 1)?;
+        let threads = renderer.crew.size();
+        (renderer.part, renderer.stage, renderer.task.window) = (part, stage, window);
         if part.number >= part.of || tiles > renderer.turns() {
             return Err(StateError::Damaged);
         }
-        (renderer.stage, renderer.next_tile, renderer.book) = (stage, tiles, book);
+        (renderer.next_tile, renderer.book) = (tiles, book);
         renderer.book.stats.threads = threads;
         if stage != Stage::Grid && matches!(renderer.task.method, Method::Paper(_)) {
             let begin = (renderer.clock)();
@@ -123,9 +142,13 @@ impl Renderer {
 
     /// Draws only part `number` of `of`, the tiles being dealt out in turn: to be called before it begins. When [`refine`](Self::refine)
     /// has done the part, it is to be saved for another renderer of the same picture to [`join`](Self::join), or to join the others.
-    /// Panics unless `number < of`, and where it has begun.
+    /// Panics unless `number < of`, where it has begun, and where it draws in bands.
     pub fn take_part(&mut self, number: usize, of: usize) {
-        assert!(number < of && self.stage == Stage::Grid, "part {number} of {of}, before it begins");
+        let whole = self.task.window.is_whole();
+        assert!(
+            number < of && self.stage == Stage::Grid && whole,
+            "part {number} of {of} of a whole picture, before it begins"
+        );
         self.part = Part { number, of };
     }
 
@@ -135,7 +158,7 @@ impl Renderer {
     /// # Errors
     /// Those of [`Renderer::resume`]; [`StateError::Part`] where this part or that one is not done, or tiles are there already.
     pub fn join(&mut self, input: &mut (impl Read + Seek)) -> Result<(), StateError> {
-        let Stopped { stage, book, .. } = state::read(&self.task.scene, &self.spec, self.task.lights.len(), input)?;
+        let Stopped { stage, book, .. } = state::read(&self.task.scene, &self.spec, input)?;
         if [self.stage, stage] != [Stage::Parted; 2] || !self.book.join(book) {
             return Err(StateError::Part);
         }
@@ -174,11 +197,12 @@ impl Renderer {
     }
 
     /// Takes over what has been proved of the [`question`](Self::question); only the rest will be looked for. It is not part of what
-    /// is saved. Tells whether it was of use: only the certified method has use for it, only before it begins, and only if it speaks of
-    /// this picture.
+    /// is saved. Tells whether it was of use: only the certified method has use for it, only before it begins, not in bands, and only if
+    /// it speaks of this picture.
     pub fn give(&mut self, given: Given) -> bool {
         let pixels = self.task.film.width * self.task.film.height;
-        let wanted = self.stage == Stage::Grid && self.task.method == Method::Certified;
+        let begins = self.stage == Stage::Grid && self.task.window.is_whole();
+        let wanted = begins && self.task.method == Method::Certified;
         let useful = wanted && given.fits(pixels, self.task.lights.len());
         if useful {
             self.given = Some(given);
@@ -196,13 +220,15 @@ impl Renderer {
     /// was not looked at is black, light that was not looked for is there.
     #[must_use]
     pub fn preview(mut self) -> Frame {
-        self.book.finish_colors(&self.task);
+        let rows = self.task.window.finished().start..self.task.window.held().end;
+        self.book.finish_colors(&self.task, self.task.indices(rows));
         self.book.frame
     }
 
     /// Finds the shadows again with another method, for the hits that have been found. What the hits cost stays in the
-    /// statistics; everything about shadows begins anew. A grid is built if the method needs one.
+    /// statistics; everything about shadows begins anew. A grid is built if the method needs one. Panics where it draws in bands.
     pub fn restart_shadows(&mut self, method: Method) {
+        assert!(self.task.window.is_whole(), "shadows of a whole picture");
         (self.task.method, self.spec.method) = (method, method);
         self.book.restart_shadows(method);
         self.next_tile = 0;
@@ -241,53 +267,6 @@ impl Renderer {
         matches!(self.stage, Stage::Done | Stage::Parted)
     }
 
-    /// Share of the work that is done, 0 to 1, roughly: tiles, the shadows counted three times.
-    #[must_use]
-    pub fn progress(&self) -> f64 {
-        let share = self.share();
-        match self.stage {
-            Stage::Grid => 0.0,
-            Stage::Primary => 0.25 * share,
-            Stage::Shadow => 0.25 + 0.75 * share,
-            Stage::Edges | Stage::Done | Stage::Parted => 1.0,
-        }
-    }
-
-    /// Guess of the time that the rest will take at the pace so far, once there is a pace. Tiles are drawn in a scattered
-    /// order, so those that are done are a fair sample of those that are not. How long shadows take in comparison with hits
-    /// is not known before the first ones are found; a usual factor stands in for it.
-    #[must_use]
-    pub fn remaining(&self) -> Option<Duration> {
-        let (share, stats) = (self.share(), &self.book.stats);
-        let all = |spent: f64| if share > 0.0 { spent / share } else { f64::NAN };
-        let seconds = match self.stage {
-            Stage::Grid => f64::NAN,
-            Stage::Primary => all(stats.primary_seconds) * (1.0 + SHADOWS_PER_HITS) - stats.primary_seconds,
-            Stage::Shadow if share > 0.0 => all(stats.shadow_seconds) - stats.shadow_seconds,
-            Stage::Shadow => SHADOWS_PER_HITS * stats.primary_seconds,
-            Stage::Edges | Stage::Done | Stage::Parted => 0.0,
-        };
-        Duration::try_from_secs_f64(seconds).ok()
-    }
-
-    /// What is being done, and how many pixels of how many are settled: in words for people.
-    #[must_use]
-    pub fn activity(&self) -> (&'static str, u64, u64) {
-        let stats = &self.book.stats;
-        let pixels = (self.task.film.width * self.task.film.height) as u64;
-        let proved = stats.proved_empty + stats.proved_hit + stats.proved_partly;
-        match self.stage {
-            Stage::Grid => ("grid", 0, pixels),
-            Stage::Primary if self.task.method == Method::Certified => ("surface: pixels proved", proved, pixels),
-            Stage::Primary => ("surface: pixels", (pixels as f64 * self.share()) as u64, pixels),
-            Stage::Shadow => {
-                let all = stats.hits * stats.lights as u64;
-                ("light: hits", stats.lit + stats.partly + stats.dark, all)
-            }
-            Stage::Edges | Stage::Done | Stage::Parted => ("colours", pixels, pixels),
-        }
-    }
-
     /// The picture as far as it is known.
     #[must_use]
     pub fn frame(&self) -> &Frame {
@@ -301,12 +280,18 @@ impl Renderer {
     }
 
     /// Share of the tiles of this stage that are done.
-    fn share(&self) -> f64 {
+    pub(super) fn share(&self) -> f64 {
         self.next_tile as f64 / self.turns().max(1) as f64
     }
 
     fn tiles(&self) -> usize {
-        self.task.film.width.div_ceil(BLOCK) * self.task.film.height.div_ceil(BLOCK)
+        let rows = self.rows();
+        self.task.film.width.div_ceil(BLOCK) * (rows.end.div_ceil(BLOCK) - rows.start / BLOCK)
+    }
+
+    /// Rows that this stage works on; they begin at the border of a tile.
+    fn rows(&self) -> Range<usize> {
+        if self.stage == Stage::Edges { self.task.window.finished() } else { self.task.window.fresh() }
     }
 
     /// Tiles of the part that is drawn here.
@@ -321,15 +306,13 @@ impl Renderer {
         // Some 0.618 n and without a common divisor with n: every tile has its turn. At most 2^22 tiles: no overflow.
         let stride = (n * 377 / 610..).find(|s| s.gcd(&n) == 1).unwrap_or(1);
         let tile = turn * stride % n;
-        (tile % across * BLOCK, tile / across * BLOCK)
+        (tile % across * BLOCK, self.rows().start + tile / across * BLOCK)
     }
 
     /// Pixels of the tile that comes as number `turn`, as indices of the planes.
     fn pixels(&self, turn: usize) -> impl Iterator<Item = usize> + use<> {
-        let (width, height) = (self.task.film.width, self.task.film.height);
-        let (left, top) = self.corner(turn);
-        let (right, bottom) = ((left + BLOCK).min(width), (top + BLOCK).min(height));
-        (top..bottom).flat_map(move |row| (left..right).map(move |column| row * width + column))
+        let (column, row) = self.corner(turn);
+        by_proof::indices(&self.task, (column, row, BLOCK))
     }
 
     fn build_grids(&mut self) {
@@ -338,7 +321,6 @@ impl Renderer {
         self.book.stats.grid_evaluations = self.grids.iter().map(Grid::evaluations).sum();
     }
 
-    /// A few tiles per thread: so stopping is quick. Threads wait for the slowest of a batch.
     /// One batch of tiles, or what comes between them. After the deadline no tile is begun but one for each thread.
     fn step(&mut self, deadline: Duration) {
         match self.stage {
@@ -373,7 +355,8 @@ impl Renderer {
                 Stage::Shadow if self.part != Part::WHOLE => Stage::Parted,
                 Stage::Shadow => Stage::Edges,
                 _ => {
-                    self.book.finish_colors(&self.task);
+                    let pixels = self.task.indices(self.task.window.finished());
+                    self.book.finish_colors(&self.task, pixels);
                     Stage::Done
                 }
             };
@@ -399,8 +382,7 @@ impl Renderer {
         let done = found.len();
         let mut pixels = Vec::with_capacity(done * BLOCK * BLOCK);
         for (tile, occupancy) in found {
-            self.book.stats.batched_questions += occupancy.questions;
-            self.book.stats.batch_lanes += occupancy.lanes;
+            self.book.put_occupancy(&occupancy);
             for pixel in tile {
                 pixels.push(pixel.index);
                 self.book.put_pixel(&self.task, pixel);
@@ -493,6 +475,3 @@ struct Batch {
     tiles: Range<usize>,
     deadline: Duration,
 }
-
-/// How much longer shadows take than hits: the certified method on the presets, between 0.2 and 2.5.
-const SHADOWS_PER_HITS: f64 = 1.5;

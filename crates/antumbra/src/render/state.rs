@@ -2,6 +2,7 @@
 use super::RenderSpec;
 use super::book::Book;
 use super::renderer::{Part, Stage};
+use super::window::Window;
 use crate::eval::Workspace;
 use crate::geom::Box3;
 use crate::scene::{Object, Scene, SceneFile};
@@ -134,6 +135,7 @@ pub(super) struct Stopped<B = Book> {
     pub(super) stage: Stage,
     pub(super) part: Part,
     pub(super) tiles: usize,
+    pub(super) window: Window,
     pub(super) book: B,
 }
 
@@ -179,12 +181,7 @@ pub(super) fn write(
 }
 
 /// Reads a state of that picture.
-pub(super) fn read(
-    scene: &Scene,
-    spec: &RenderSpec,
-    lights: usize,
-    input: &mut (impl Read + Seek),
-) -> Result<Stopped, StateError> {
+pub(super) fn read(scene: &Scene, spec: &RenderSpec, input: &mut (impl Read + Seek)) -> Result<Stopped, StateError> {
     // What it is; then whether it is whole; only then what is in it.
     let length = input.seek(SeekFrom::End(0))?;
     input.rewind()?;
@@ -219,7 +216,8 @@ pub(super) fn read(
     let mut names = [0; 1024];
     let content = lz4_flex::frame::FrameDecoder::new(input);
     let (stopped, _) = postcard::from_io::<Stopped<Book>, _>((content, &mut names)).map_err(|_| StateError::Damaged)?;
-    let fits = stopped.book.fits(spec.width, spec.height, lights);
+    let held = stopped.window.held().len();
+    let fits = stopped.window.holds(spec.height) && stopped.book.fits(spec.width, held, scene.lights.len());
     if fits { Ok(stopped) } else { Err(StateError::Damaged) }
 }
 

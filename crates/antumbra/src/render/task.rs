@@ -2,6 +2,7 @@
 use super::irradiance::irradiance;
 use super::pixel::Hit;
 use super::spec::{Error, Method, RenderSpec};
+use super::window::Window;
 use crate::eval::{Gradient, Inclusion, Workspace};
 use crate::geom::{Beam, Box3, Film, Rect, Vec3};
 use crate::paper::Settings;
@@ -9,6 +10,7 @@ use crate::scene::{ColorMap, Coloring, Colors, Light, Object, Scene};
 use crate::shadow::Tolerance;
 use crate::trace::{Effort, Sign, Surface};
 use antumbra_interval::Interval;
+use std::ops::Range;
 use std::sync::Arc;
 
 /// A hit of which more is to be known.
@@ -42,6 +44,8 @@ pub(super) struct Task {
     /// Of the scene.
     pub(super) scale: f64,
     pub(super) film: Film,
+    /// The rows of it that planes hold.
+    pub(super) window: Window,
     pub(super) lights: Vec<Light>,
     /// Form factor of each light where the camera looks, on a patch that faces it: full light.
     pub(super) full: Vec<f64>,
@@ -58,7 +62,7 @@ const FAR: f64 = 100.0;
 impl Task {
     /// # Errors
     /// Where the scene's floor has no height.
-    pub(super) fn new(scene: Arc<Scene>, spec: &RenderSpec) -> Result<Self, Error> {
+    pub(super) fn new(scene: Arc<Scene>, spec: &RenderSpec, window: Window) -> Result<Self, Error> {
         let (width, height) = (spec.width, spec.height);
         let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
         let mut objects = scene.objects.clone();
@@ -97,6 +101,7 @@ impl Task {
             scale,
             has_floor,
             film,
+            window,
             lights,
             full,
             settings,
@@ -104,6 +109,21 @@ impl Task {
             method: spec.method,
             glance,
         })
+    }
+
+    /// Column and row of the pixel at an index of the planes.
+    pub(super) fn place(&self, index: usize) -> (usize, usize) {
+        (index % self.film.width, self.window.held().start + index / self.film.width)
+    }
+
+    /// Where planes hold a pixel; its row is held.
+    pub(super) fn index(&self, column: usize, row: usize) -> usize {
+        (row - self.window.held().start) * self.film.width + column
+    }
+
+    /// Where planes hold those rows.
+    pub(super) fn indices(&self, rows: Range<usize>) -> Range<usize> {
+        self.index(0, rows.start)..self.index(0, rows.end)
     }
 
     /// The objects as surfaces.

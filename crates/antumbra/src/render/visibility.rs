@@ -106,8 +106,8 @@ fn is_given(given: Option<&Given>, index: usize) -> bool {
 fn in_order(task: &Task, nodes: &[Node], sights: Vec<Sight<'_>>) -> Vec<Pixel> {
     let mut found: Vec<Option<Pixel>> = Vec::new();
     let slot = |index: usize| {
-        let (column, row) = (index % task.film.width % BLOCK, index / task.film.width % BLOCK);
-        row * BLOCK + column
+        let (column, row) = task.place(index);
+        row % BLOCK * BLOCK + column % BLOCK
     };
     found.resize_with(BLOCK * BLOCK, || None);
     for sight in sights {
@@ -154,7 +154,8 @@ impl Primary<'_> {
             GivenPixel::Hit { surface, t, before } => (surface, t, before),
         };
         let mut cost = Cost::default();
-        let beam = self.task.film.ray(index % self.task.film.width, index / self.task.film.width);
+        let (column, row) = self.task.place(index);
+        let beam = self.task.film.ray(column, row);
         let mut meeting = Meeting { surface, t, before: Some(before), reason: None };
         let wide = |light: &Vec<[f64; 2]>| light[index][1] - light[index][0] > self.task.tolerance.width;
         if given.lights.iter().any(wide) {
@@ -217,7 +218,7 @@ impl Primary<'_> {
         let mut sights: Vec<Sight<'n>> = Vec::with_capacity(BLOCK * BLOCK);
         for node in nodes.iter().filter(|n| n.children.is_empty() && !n.open.certainly_empty()) {
             for index in indices(self.task, node.block).filter(|index| !is_given(self.given, *index)) {
-                let (column, row) = (index % self.task.film.width, index / self.task.film.width);
+                let (column, row) = self.task.place(index);
                 let ray = self.task.film.ray(column, row);
                 let (pixel, thin, stage) = (empty(index), None, Stage::Settled);
                 sights.push(Sight { column, row, open: &node.open, ray, pixel, thin, stage });
