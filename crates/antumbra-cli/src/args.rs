@@ -1,5 +1,6 @@
 //! The command line as clap reads it. Nothing happens here.
 
+mod picture;
 mod serve;
 
 use std::{path::PathBuf, time::Duration};
@@ -7,16 +8,16 @@ use std::{path::PathBuf, time::Duration};
 use antumbra::{
     render::{Method, Overlay, RenderSpec},
     report::Exhibit,
-    scene::{ColorBy, Course, Exposure, Finish, Tone},
     shadow::Penumbra,
 };
 use clap::{Parser, Subcommand};
 
+pub(crate) use picture::{AnimationArgs, LookArgs, ParameterArgs};
 pub(crate) use serve::ServeArgs;
 
 use crate::{
     failure::EXIT_CODES,
-    values::{self, Assignment, Device, Size, Span},
+    values::{self, Device, Size},
     view::ViewArgs,
 };
 
@@ -123,6 +124,11 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "SECONDS", default_value = "30", value_parser = values::budget, allow_negative_numbers = true)]
     pub(crate) save_every: Duration,
 
+    /// Draw a picture that would take more memory than so many MiB in bands; outlines, automatic exposure, overlays and EXR need the whole
+    /// picture [default: 1536, if the picture allows it]
+    #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
+    pub(crate) memory: Option<u64>,
+
     /// Who does it: cpu; gpu proves what it can, the processor the rest; auto takes a GPU if there is one. All prove what they say; the
     /// bits of cpu and gpu differ
     #[arg(long, value_name = "DEVICE", default_value = "cpu", value_parser = values::device)]
@@ -146,67 +152,6 @@ pub(crate) struct RenderArgs {
 
     #[command(flatten)]
     pub(crate) animation: AnimationArgs,
-}
-
-/// Values of a scene's parameters.
-#[derive(Debug, clap::Args)]
-pub(crate) struct ParameterArgs {
-    /// Give a parameter of the scene another value, as in --set a=0.05 or --set t=pi/3; may be given several times. Parameters
-    /// stand in [parameters] of a scene file, or in a formula as definitions: 'a = 1; x^2 + y^2 + a z^2 = 1'
-    #[arg(long, value_name = "NAME=VALUE", value_parser = values::assignment)]
-    pub(crate) set: Vec<Assignment>,
-}
-
-/// What moves in an animation.
-#[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Animation")]
-pub(crate) struct AnimationArgs {
-    /// Move a parameter over the frames, as in --animate a=0:1; several move together
-    #[arg(long, value_name = "NAME=FROM:TO", value_parser = values::span, requires = "frames")]
-    pub(crate) animate: Vec<Span>,
-
-    /// Let the camera go around its target once, about the vertical axis
-    #[arg(long, requires = "frames")]
-    pub(crate) turntable: bool,
-
-    /// How many frames
-    #[arg(long, value_name = "N", value_parser = values::frames, allow_negative_numbers = true)]
-    pub(crate) frames: Option<usize>,
-
-    /// Make the end meet the beginning: back (there and back again, also without =back) or around (the end is the beginning
-    /// already, as of --animate t=0:2pi, and is left out)
-    #[arg(long = "loop", value_name = "KIND", num_args = 0..=1, require_equals = true, default_missing_value = "back",
-        value_parser = values::course, requires = "animate")]
-    pub(crate) course: Option<Course>,
-
-    /// Frames per second of a moving picture [default: 25]
-    #[arg(long, value_name = "N", value_parser = values::rate, allow_negative_numbers = true, requires = "frames")]
-    pub(crate) fps: Option<f64>,
-}
-
-/// How the picture looks: nothing here is certified, and nothing changes what is.
-#[derive(Debug, clap::Args)]
-#[command(next_help_heading = "Look")]
-pub(crate) struct LookArgs {
-    /// What becomes of light brighter than white: soft (pressed together), plain (cut) or filmic (bent as film does)
-    #[arg(long, value_name = "TONE", value_parser = values::tone)]
-    pub(crate) tone: Option<Tone>,
-
-    /// Brightness: `auto`, or so many times twice as bright, such as 0.5 or -1
-    #[arg(long, value_name = "STOPS", value_parser = values::exposure, allow_negative_numbers = true)]
-    pub(crate) exposure: Option<Exposure>,
-
-    /// Dark lines where a surface ends or bends sharply
-    #[arg(long)]
-    pub(crate) outline: bool,
-
-    /// How all surfaces throw back light: matte, satin, gloss or metal
-    #[arg(long, value_name = "FINISH", value_parser = values::finish)]
-    pub(crate) finish: Option<Finish>,
-
-    /// What decides the colour of all surfaces: sides, normal or curvature (another formula: `field` in a scene file)
-    #[arg(long, value_name = "WHAT", value_parser = values::color_by)]
-    pub(crate) color_by: Option<ColorBy>,
 }
 
 /// What every command that renders understands.

@@ -5,6 +5,7 @@
 
 mod animation;
 mod args;
+mod bands;
 mod commands;
 #[cfg(test)]
 mod documents;

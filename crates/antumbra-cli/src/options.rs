@@ -64,6 +64,8 @@ pub(crate) struct RenderOptions {
     pub(crate) run: RunSpec,
     pub(crate) picture: PathBuf,
     pub(crate) format: Format,
+    /// MiB that the picture may take.
+    pub(crate) memory: Option<u64>,
     pub(crate) device: Device,
     pub(crate) overlay: Option<Overlay>,
     pub(crate) planes: Option<PathBuf>,
@@ -140,6 +142,7 @@ impl RenderOptions {
             run,
             picture,
             format,
+            memory: args.memory,
             device: args.device,
             overlay: args.overlay,
             planes: args.planes,

@@ -16,6 +16,7 @@ use antumbra::{
 use anyhow::{Result, anyhow};
 
 use crate::{
+    bands::Rows,
     commands::frame_bytes,
     options::Format,
     output::{Sink, finish, remark},
@@ -55,7 +56,7 @@ impl Unfinished {
         }
     }
 
-    /// A renderer at the beginning; or, if it is to resume and there is a state, where that one stopped.
+    /// A renderer at the beginning, in bands of so many rows; or, if it is to resume and there is a state, where that one stopped.
     ///
     /// # Errors
     /// Where the state cannot be gone on with; where no renderer can be had.
@@ -64,6 +65,7 @@ impl Unfinished {
         scene: &Arc<Scene>,
         spec: &RenderSpec,
         run: RunSpec,
+        rows: usize,
         resume: bool,
     ) -> Result<Renderer> {
         let state = self.state.display();
@@ -85,7 +87,7 @@ impl Unfinished {
             Err(e) if resume => return Err(anyhow!("cannot read `{state}`: {e}")),
             Err(_) => {}
         }
-        Ok(Renderer::new(Arc::clone(scene), spec.clone(), run)?)
+        Ok(Renderer::in_bands(Arc::clone(scene), spec.clone(), run, rows)?)
     }
 
     /// The same for a frame of an animation, in which a state of something else is no reason to stop.
@@ -131,17 +133,25 @@ impl Unfinished {
         Ok(())
     }
 
-    /// Saves a render that stops here, with a picture of what is done, and says in words what was written. Nothing is
-    /// written where nothing is done.
+    /// Saves a render that stops here, with a picture of what is done (unless it is drawn in bands, whose finished rows are kept), and
+    /// says in words what was written. Nothing is written where nothing is done.
     ///
     /// # Errors
     /// Where the files cannot be written.
-    pub(crate) fn stop(&mut self, renderer: Renderer) -> Result<String> {
+    pub(crate) fn stop(&mut self, renderer: Renderer, bands: Option<Rows>) -> Result<String> {
         let share = 100.0 * renderer.progress();
         if !self.possible || share == 0.0 {
+            bands.into_iter().for_each(Rows::remove);
             return Ok("nothing was written".to_owned());
         }
         self.save(&renderer)?;
+        if let Some(bands) = bands {
+            return Ok(format!(
+                "about {share:.0} % is done and kept in `{}` and `{}`: the same command with --resume goes on with it",
+                self.state.display(),
+                bands.folder().display()
+            ));
+        }
         let mut preview = Sink::open(&self.preview)?;
         let look = renderer.scene().look;
         preview.fill(&frame_bytes(&renderer.preview(), &look, self.format)?)?;

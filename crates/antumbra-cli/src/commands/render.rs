@@ -14,6 +14,7 @@ use super::{
     record::FrameRecord, spent,
 };
 use crate::{
+    bands::{self, Rows},
     failure::Interrupted,
     interrupt::Asking,
     options::RenderOptions,
@@ -52,31 +53,61 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let mut picture = Sink::open(&options.picture)?;
     let mut json = json_sink(options.json.as_ref())?;
 
+    let rows = bands::rows(options)?;
     let mut unfinished = Unfinished::of(&options.picture, options.format, options.save_every);
-    let mut renderer = unfinished.begin(&options.scene.scene, &options.spec, options.run, options.resume)?;
+    let mut renderer = unfinished.begin(&options.scene.scene, &options.spec, options.run, rows, options.resume)?;
+    // Where a render goes on, its state says whether it is one in bands.
+    let mut bands = match renderer.rows_before() {
+        0 if renderer.holds_all() => None,
+        before => Some(Rows::open(options, before)?),
+    };
     let asking = Asking::first(renderer.stop_flag());
     device::prepare(options.device, options.spec.method, &mut renderer, options.quiet)?;
     let progress = Progress::new(options.quiet, options.spec.method.name());
-    let end =
-        pursue(&mut renderer, deadline(options.budget), Some(&progress), &mut |r| unfinished.save_now_and_then(r));
+    let deadline = deadline(options.budget);
+    let end = loop {
+        let end = pursue(&mut renderer, deadline, Some(&progress), &mut |r| unfinished.save_now_and_then(r));
+        if let (End::Done, Some(bands), Some((rows, frame))) = (end, &mut bands, renderer.finished_rows()) {
+            bands.put(&rows, &frame, options)?;
+        }
+        if end != End::Done || !renderer.next_band() {
+            break end;
+        }
+    };
     drop((progress, asking));
     match end {
         End::Done => {}
-        End::Budget => bail!(spent(options.budget, &unfinished.stop(renderer)?)),
-        End::Asked => bail!(Interrupted(unfinished.stop(renderer)?)),
+        End::Budget => bail!(spent(options.budget, &unfinished.stop(renderer, bands)?)),
+        End::Asked => bail!(Interrupted(unfinished.stop(renderer, bands)?)),
     }
 
-    picture.fill(&match options.overlay {
-        Some(kind) => picture_bytes(&renderer.frame().overlay(kind, options.spec.tolerance)?, options.format)?,
-        None => frame_bytes(renderer.frame(), &options.scene.scene.look, options.format)?,
-    })?;
-    let mut sinks = vec![picture];
-    if let Some(folder) = &folder {
-        for plane in renderer.frame().planes()?.iter() {
-            let mut sink = folder.sink(&format!("{}.npy", plane.name()))?;
-            sink.fill(&npy_bytes(plane)?)?;
-            sinks.push(sink);
+    match (&bands, options.overlay) {
+        (Some(bands), _) => bands.write_picture(&mut picture)?,
+        (None, Some(kind)) => {
+            let planes = renderer.frame().overlay(kind, options.spec.tolerance)?;
+            picture.fill(&picture_bytes(&planes, options.format)?)?;
         }
+        (None, None) => {
+            picture.fill(&frame_bytes(renderer.frame(), &options.scene.scene.look, options.format)?)?;
+        }
+    }
+    let mut sinks = vec![picture];
+    match (&folder, &bands) {
+        (Some(folder), Some(bands)) => {
+            for name in bands.planes() {
+                let mut sink = folder.sink(&format!("{name}.npy"))?;
+                bands.write_plane(name, &mut sink)?;
+                sinks.push(sink);
+            }
+        }
+        (Some(folder), None) => {
+            for plane in renderer.frame().planes()?.iter() {
+                let mut sink = folder.sink(&format!("{}.npy", plane.name()))?;
+                sink.fill(&npy_bytes(plane)?)?;
+                sinks.push(sink);
+            }
+        }
+        (None, _) => {}
     }
     let stats = renderer.stats();
     if let Some(folder) = &folder {
@@ -97,6 +128,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     }
     finish(sinks)?;
     unfinished.done();
+    bands.into_iter().for_each(Rows::remove);
     print_json(options.json.as_ref(), &record)?;
     if !options.quiet {
         remark(&summary(options, &stats));

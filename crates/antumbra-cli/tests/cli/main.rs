@@ -3,6 +3,7 @@
 mod animation;
 mod audit;
 mod bad_input;
+mod bands;
 mod bench;
 mod commands;
 mod gallery;

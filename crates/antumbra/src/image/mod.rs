@@ -6,8 +6,8 @@
 //!
 //! | function | file | content |
 //! |---|---|---|
-//! | [`npy_bytes`], [`plane_from_npy`] | `.npy` | one plane, element type kept exactly |
-//! | [`png_bytes`] | `.png` | a linear RGB plane through the sRGB transfer, 8 bit dithered or 16 bit |
+//! | [`npy_bytes`], [`npy_header`], [`plane_from_npy`] | `.npy` | one plane, element type kept exactly |
+//! | [`png_bytes`], [`png_rows`] | `.png` | a linear RGB plane through the sRGB transfer, 8 bit dithered or 16 bit |
 //! | [`Movie`] | `.gif`, `.png` | moving pictures, from frames of 8 bits |
 //! | [`exr_bytes`] | `.exr` | linear `R`, `G`, `B` and every other plane as channels of their own |
 
@@ -22,9 +22,9 @@ pub use self::{
     color::{code_8, code_16, codes_8, linear_from_srgb, srgb_from_linear},
     exr::exr_bytes,
     movie::Movie,
-    npy::{npy_bytes, plane_from_npy},
+    npy::{npy_bytes, npy_header, plane_from_npy},
     plane::{Plane, Planes, Rounding, Samples},
-    png::{Depth, Still, png_bytes, png_bytes_noted},
+    png::{Depth, Still, png_bytes, png_bytes_noted, png_codes, png_rows},
 };
 
 /// Name and version written into the header of every picture.

@@ -19,6 +19,23 @@ pub fn npy_bytes(plane: &Plane) -> Result<Vec<u8>, Error> {
     }
 }
 
+/// The bytes before the elements in the `.npy` file of a plane like this one with that many rows: for planes that are written row by row.
+///
+/// # Errors
+/// As for [`npy_bytes`].
+pub fn npy_header(plane: &Plane, rows: usize) -> Result<Vec<u8>, Error> {
+    let mut shape = plane.shape();
+    shape[0] = rows;
+    match plane.samples() {
+        Samples::F64(_) => header::<f64>(&shape),
+        Samples::F32(_) => header::<f32>(&shape),
+        Samples::U64(_) => header::<u64>(&shape),
+        Samples::U32(_) => header::<u32>(&shape),
+        Samples::U16(_) => header::<u16>(&shape),
+        Samples::U8(_) => header::<u8>(&shape),
+    }
+}
+
 /// The plane in the bytes of a `.npy` file as [`npy_bytes`] writes it, under the given name.
 ///
 /// # Errors
@@ -48,6 +65,14 @@ pub fn plane_from_npy(name: &str, bytes: &[u8]) -> Result<Plane, Error> {
     Plane::with_channels(name, rows, columns, channels, samples.map_err(|e| refuse(e.to_string()))?)
 }
 
+fn header<T: AutoSerialize>(shape: &[usize]) -> Result<Vec<u8>, Error> {
+    let shape: Vec<u64> = shape.iter().map(|&n| n as u64).collect();
+    let mut bytes = Vec::new();
+    let begun = WriteOptions::<T>::new().default_dtype().shape(&shape).writer(&mut bytes).begin_nd();
+    begun.map_err(|e| Error::Encode { format: ".npy", reason: e.to_string() })?;
+    Ok(bytes)
+}
+
 fn write<T: AutoSerialize + Copy>(plane: &Plane, values: &[T]) -> Result<Vec<u8>, Error> {
     let shape: Vec<u64> = plane.shape().iter().map(|&n| n as u64).collect();
     let mut bytes = Vec::with_capacity(256 + size_of_val(values));
@@ -75,6 +100,10 @@ mod tests {
         assert_eq!(file.into_vec::<f64>().unwrap(), normal);
 
         assert_eq!(plane_from_npy("normal", &bytes).unwrap(), plane);
+        assert!(bytes.starts_with(&npy_header(&plane, 2).unwrap()));
+        let taller = Plane::with_channels("normal", 3, 5, 3, vec![0.5; 45]).unwrap();
+        let header = npy_header(&plane, 3).unwrap();
+        assert_eq!(npy_bytes(&taller).unwrap().strip_prefix(&header[..]).unwrap().len(), 45 * 8);
         for cut in [0, 5, bytes.len() - 1] {
             let error = plane_from_npy("normal", &bytes[..cut]).unwrap_err();
             assert!(matches!(error, Error::Decode { .. }), "{cut}: {error}");

@@ -1,6 +1,7 @@
 //! `.png`: the picture for eyes, in sRGB.
 
 use super::{Error, Plane, SOFTWARE, Samples, code_8, code_16};
+use std::io::Write;
 
 /// Bits per channel of a PNG.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -29,11 +30,15 @@ pub fn png_bytes(plane: &Plane, depth: Depth) -> Result<Vec<u8>, Error> {
 /// # Errors
 /// As for [`png_bytes`].
 pub fn png_bytes_noted(plane: &Plane, depth: Depth, note: Option<&str>) -> Result<Vec<u8>, Error> {
-    match plane.samples() {
-        Samples::F64(v) if plane.channels() == 3 => encode(plane, depth, note, v.iter().copied()),
-        Samples::F32(v) if plane.channels() == 3 => encode(plane, depth, note, v.iter().map(|&x| f64::from(x))),
-        _ => Err(Error::NotColor(plane.name().to_owned())),
-    }
+    let codes = png_codes(plane, 0, depth)?;
+    let mut bytes = Vec::new();
+    let mut write = || {
+        let mut writer = header(encoder(&mut bytes, [plane.columns(), plane.rows()], depth)?, note)?;
+        writer.write_image_data(&codes)?;
+        writer.finish()
+    };
+    write().map_err(refused)?;
+    Ok(bytes)
 }
 
 /// A PNG as it was written by [`png_bytes_noted`], read again.
@@ -76,12 +81,48 @@ impl Still {
 /// Keyword of the note: one of those that the PNG standard names.
 const NOTE: &str = "Comment";
 
-fn encode(plane: &Plane, depth: Depth, note: Option<&str>, light: impl Iterator<Item = f64>) -> Result<Vec<u8>, Error> {
+/// What [`png_rows`] wants for the rows of a plane of linear light of which the first is row `first` of the picture: three codes for
+/// each pixel, of 16 bits in two bytes.
+///
+/// # Errors
+/// [`Error::NotColor`] and [`Error::NotANumber`] as for [`png_bytes`].
+pub fn png_codes(plane: &Plane, first: usize, depth: Depth) -> Result<Vec<u8>, Error> {
+    match plane.samples() {
+        Samples::F64(v) if plane.channels() == 3 => codes(plane, first, depth, v.iter().copied()),
+        Samples::F32(v) if plane.channels() == 3 => codes(plane, first, depth, v.iter().map(|&x| f64::from(x))),
+        _ => Err(Error::NotColor(plane.name().to_owned())),
+    }
+}
+
+/// Writes a PNG piece by piece: `rows` writes the codes of all rows ([`png_codes`]), in any pieces.
+///
+/// # Errors
+/// [`Error::Encode`] where the encoder, `out` or `rows` refuses, or rows are missing.
+pub fn png_rows(
+    out: impl Write,
+    [columns, rows]: [usize; 2],
+    depth: Depth,
+    write: impl FnOnce(&mut dyn Write) -> std::io::Result<()>,
+) -> Result<(), Error> {
+    let write = || {
+        let mut writer = header(encoder(out, [columns, rows], depth)?, None)?;
+        let mut stream = writer.stream_writer()?;
+        write(&mut stream)?;
+        stream.finish()?;
+        writer.finish()
+    };
+    write().map_err(refused)
+}
+
+fn refused(error: png::EncodingError) -> Error {
+    Error::Encode { format: "PNG", reason: error.to_string() }
+}
+
+fn codes(plane: &Plane, first: usize, depth: Depth, light: impl Iterator<Item = f64>) -> Result<Vec<u8>, Error> {
     let columns = plane.columns();
-    let place = |i: usize| (i / 3 / columns, i / 3 % columns, i % 3);
     let mut codes = Vec::with_capacity(plane.samples().len() * if depth == Depth::Eight { 1 } else { 2 });
     for (i, x) in light.enumerate() {
-        let (row, column, channel) = place(i);
+        let (row, column, channel) = (first + i / 3 / columns, i / 3 % columns, i % 3);
         if x.is_nan() {
             return Err(Error::NotANumber { name: plane.name().to_owned(), row, column });
         }
@@ -90,10 +131,13 @@ fn encode(plane: &Plane, depth: Depth, note: Option<&str>, light: impl Iterator<
             Depth::Sixteen => codes.extend(code_16(x).to_be_bytes()),
         }
     }
-    let refused = |reason: String| Error::Encode { format: "PNG", reason };
-    let side = |n: usize| u32::try_from(n).map_err(|_| refused(format!("{n} pixels a side are too many")));
-    let mut bytes = Vec::new();
-    let mut encoder = png::Encoder::new(&mut bytes, side(columns)?, side(plane.rows())?);
+    Ok(codes)
+}
+
+fn encoder<W: Write>(out: W, size: [usize; 2], depth: Depth) -> Result<png::Encoder<'static, W>, png::EncodingError> {
+    // What does not fit is no size of a PNG: the encoder refuses it.
+    let [columns, rows] = size.map(|n| u32::try_from(n).unwrap_or(0));
+    let mut encoder = png::Encoder::new(out, columns, rows);
     encoder.set_color(png::ColorType::Rgb);
     encoder.set_depth(if depth == Depth::Eight { png::BitDepth::Eight } else { png::BitDepth::Sixteen });
     // Dither leaves little to compress: a sixth more bytes in a fortieth of the time, which was a tenth of a whole picture's.
@@ -101,17 +145,18 @@ fn encode(plane: &Plane, depth: Depth, note: Option<&str>, light: impl Iterator<
     // 1/2.2, the value that the PNG standard wants beside `sRGB` for programs that know only `gAMA`.
     encoder.set_source_gamma(png::ScaledFloat::from_scaled(45455));
     encoder.set_source_srgb(png::SrgbRenderingIntent::Perceptual);
-    let write = || {
-        encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
-        if let Some(note) = note {
-            encoder.add_text_chunk(NOTE.to_owned(), note.to_owned())?;
-        }
-        let mut writer = encoder.write_header()?;
-        writer.write_image_data(&codes)?;
-        writer.finish()
-    };
-    write().map_err(|e: png::EncodingError| refused(e.to_string()))?;
-    Ok(bytes)
+    encoder.add_text_chunk("Software".to_owned(), SOFTWARE.to_owned())?;
+    Ok(encoder)
+}
+
+fn header<W: Write>(
+    mut encoder: png::Encoder<'_, W>,
+    note: Option<&str>,
+) -> Result<png::Writer<W>, png::EncodingError> {
+    if let Some(note) = note {
+        encoder.add_text_chunk(NOTE.to_owned(), note.to_owned())?;
+    }
+    encoder.write_header()
 }
 
 #[cfg(test)]
@@ -163,6 +208,27 @@ mod tests {
         assert_eq!(info.gama_chunk.unwrap().into_scaled(), 45455);
         let text = &info.uncompressed_latin1_text;
         assert_eq!((text[0].keyword.as_str(), text[0].text.as_str()), ("Software", SOFTWARE));
+    }
+
+    #[test]
+    fn rows_make_the_picture() {
+        let (light, plane) = ramp();
+        let some = |rows: std::ops::Range<usize>| {
+            let light = light[rows.start * 64 * 3..rows.end * 64 * 3].to_vec();
+            Plane::with_channels(COLOR_PLANE, rows.len(), 64, 3, light).unwrap()
+        };
+        for depth in [Depth::Eight, Depth::Sixteen] {
+            let mut bytes = vec![];
+            let pieces = [0..5, 5..6, 6..16].map(|part| png_codes(&some(part.clone()), part.start, depth).unwrap());
+            png_rows(&mut bytes, [64, 16], depth, |out| pieces.iter().try_for_each(|piece| out.write_all(piece)))
+                .unwrap();
+            let (reader, codes) = decode(bytes);
+            let (whole, expected) = decode(png_bytes(&plane, depth).unwrap());
+            assert_eq!(codes, expected);
+            assert_eq!(reader.info().srgb, whole.info().srgb);
+        }
+        let short = png_rows(vec![], [64, 16], Depth::Eight, |out| out.write_all(&[0; 64 * 3]));
+        assert!(matches!(short, Err(Error::Encode { .. })), "rows are missing");
     }
 
     #[test]

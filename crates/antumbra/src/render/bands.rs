@@ -14,6 +14,18 @@ impl Renderer {
         (self.stage == Stage::Done).then(|| (rows.clone(), frame()))
     }
 
+    /// Rows of the picture that are finished and no more held: those of the bands before.
+    #[must_use]
+    pub fn rows_before(&self) -> usize {
+        self.task.window.finished().start
+    }
+
+    /// Whether all of the picture is held.
+    #[must_use]
+    pub fn holds_all(&self) -> bool {
+        self.task.window.is_whole()
+    }
+
     /// Forgets what is finished and turns to the band below; tells whether there is one. To be called when [`refine`](Self::refine) has
     /// finished a band.
     pub fn next_band(&mut self) -> bool {

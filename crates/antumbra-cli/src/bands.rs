@@ -1,0 +1,266 @@
+//! Pictures that are drawn in bands: which, and the finished rows of them until all are there.
+//!
+//! Finished rows go to files of rows in the folder `NAME.png.bands` beside the picture, one for the picture and one for each plane, every row with
+//! its checksum. They are as many as the saved state counts, or more, so that a render that was stopped goes on. When all rows
+//! are there, the files become what was asked for, and the folder goes.
+
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{self, BufReader, BufWriter, Read, Seek, Write},
+    ops::Range,
+    path::{Path, PathBuf},
+};
+
+use antumbra::{
+    image::{COLOR_PLANE, Depth, npy_bytes, npy_header, png_codes, png_rows},
+    render::{Frame, Renderer},
+    scene::Exposure,
+};
+use anyhow::{Context, Result, anyhow, bail};
+
+use crate::{
+    failure::Usage,
+    options::{Format, RenderOptions},
+    output::Sink,
+};
+
+/// MiB that a picture takes at most, where nothing is said and the picture allows it.
+const MEMORY: u64 = 1536;
+/// Name of the picture's file of rows: no plane has it. Rows of other bits do not fit.
+fn picture_name(depth: Depth) -> &'static str {
+    match depth {
+        Depth::Eight => "picture-8",
+        Depth::Sixteen => "picture-16",
+    }
+}
+
+/// How many rows to draw at a time; all of them if that is how it must or may be.
+///
+/// # Errors
+/// [`Usage`] where less memory is wanted than the picture can be drawn in.
+pub(crate) fn rows(options: &RenderOptions) -> Result<usize> {
+    let (spec, scene) = (&options.spec, &options.scene.scene);
+    let lights = scene.lights.len();
+    let allowed = options.memory.unwrap_or(MEMORY) << 20;
+    if Renderer::bytes(spec.width, spec.height, lights) <= allowed {
+        return Ok(spec.height);
+    }
+    let needs_all = [
+        (options.format == Format::Exr, "an EXR file"),
+        (options.overlay.is_some(), "an overlay with its legend"),
+        (scene.look.outline, "an outline"),
+        (matches!(scene.look.exposure, Exposure::Auto(_)), "automatic exposure"),
+    ];
+    if let Some((_, what)) = needs_all.into_iter().find(|(needed, _)| *needed) {
+        return match options.memory {
+            None => Ok(spec.height),
+            Some(memory) => Err(Usage(format!(
+                "{what} needs the whole picture, which takes up to {} MiB: allow it with --memory, or leave it out; {memory} MiB allow \
+                 only a picture in bands",
+                Renderer::bytes(spec.width, spec.height, lights) >> 20
+            ))
+            .into()),
+        };
+    }
+    // A band is held with 64 rows of the one before; the copy of its rows for the files is about as large as half of it.
+    let row = Renderer::bytes(spec.width, 1, lights);
+    Ok((allowed / row).saturating_sub(64).min(spec.height as u64) as usize * 2 / 3)
+}
+
+/// The finished rows of a picture.
+pub(crate) struct Rows {
+    folder: PathBuf,
+    /// A folder that goes with the program: for pictures that go to a device.
+    _temporary: Option<tempfile::TempDir>,
+    files: Vec<RowFile>,
+    depth: Depth,
+    /// Size of the picture.
+    width: usize,
+    height: usize,
+}
+
+impl Rows {
+    /// Those of the picture and the planes that are wanted; `done` of them are there, from an earlier run.
+    ///
+    /// # Errors
+    /// Where files cannot be made, or fewer rows are there.
+    pub(crate) fn open(options: &RenderOptions, done: usize) -> Result<Self> {
+        let picture = &options.picture;
+        let is_file = fs::metadata(picture).map_or(true, |old| old.is_file());
+        let temporary = if is_file { None } else { Some(tempfile::tempdir()?) };
+        let folder = temporary.as_ref().map_or_else(|| folder(picture), |t| t.path().to_owned());
+        let (Format::Png(depth), false) = (options.format, options.overlay.is_some()) else {
+            bail!("only PNG files are drawn in bands");
+        };
+        fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+        let (width, height) = (options.spec.width, options.spec.height);
+        let planes = options.planes.is_some().then(|| Frame::plane_names(options.scene.scene.lights.len()));
+        let names = std::iter::once(picture_name(depth).to_owned()).chain(planes.into_iter().flatten());
+        let files = names.map(|name| RowFile::open(&folder, name, done)).collect::<Result<_>>()?;
+        Ok(Self { folder, _temporary: temporary, files, depth, width, height })
+    }
+
+    /// Appends what a band has finished.
+    ///
+    /// # Errors
+    /// Where the disk is full.
+    pub(crate) fn put(&mut self, rows: &Range<usize>, frame: &Frame, options: &RenderOptions) -> Result<()> {
+        let look = &options.scene.scene.look;
+        let planes = if self.files.len() > 1 { Some(frame.planes()?) } else { None };
+        let (depth, height) = (self.depth, self.height);
+        for file in &mut self.files {
+            if file.name == picture_name(depth) {
+                let codes = png_codes(frame.picture(look)?.require(COLOR_PLANE)?, rows.start, depth)?;
+                file.put(&codes, rows.len())?;
+            } else if let Some(planes) = &planes {
+                let plane = planes.require(&file.name)?;
+                let (bytes, own) = (npy_bytes(plane)?, npy_header(plane, rows.len())?);
+                if rows.start == 0 {
+                    file.put_header(&npy_header(plane, height)?)?;
+                }
+                file.put(&bytes[own.len()..], rows.len())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Writes the picture.
+    ///
+    /// # Errors
+    /// Where rows were damaged, or the disk is full.
+    pub(crate) fn write_picture(&self, sink: &mut Sink) -> Result<()> {
+        let Some(file) = self.files.iter().find(|file| file.name == picture_name(self.depth)) else { return Ok(()) };
+        let size = [self.width, self.height];
+        sink.write(|out| Ok(png_rows(out, size, self.depth, |out| file.copy(self.height, out))?))
+    }
+
+    /// Names of the planes.
+    pub(crate) fn planes(&self) -> impl Iterator<Item = &str> {
+        self.files.iter().map(|file| &*file.name).filter(|name| *name != picture_name(self.depth))
+    }
+
+    /// Writes the `.npy` file of a plane.
+    ///
+    /// # Errors
+    /// Where rows were damaged, or the disk is full.
+    pub(crate) fn write_plane(&self, name: &str, sink: &mut Sink) -> Result<()> {
+        let Some(file) = self.files.iter().find(|file| file.name == name) else { return Ok(()) };
+        sink.write(|out| Ok(file.copy(self.height, out)?))
+    }
+
+    /// Where they are.
+    pub(crate) fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Takes the files away.
+    pub(crate) fn remove(self) {
+        let Self { folder, files, .. } = self;
+        for RowFile { path, .. } in files {
+            let _ = fs::remove_file(path);
+        }
+        // Fails, as it should, where something else is in it.
+        let _ = fs::remove_dir(folder);
+    }
+}
+
+/// The folder of the finished rows of a picture.
+pub(crate) fn folder(picture: &Path) -> PathBuf {
+    let name = picture.file_name().unwrap_or_default().to_string_lossy();
+    picture.with_file_name(format!("{name}.bands"))
+}
+
+/// A file of rows: blocks of `length: u32, rows: u32, bytes, CRC-32`, little endian. A block of 0 rows is what comes before them.
+struct RowFile {
+    name: String,
+    path: PathBuf,
+    file: File,
+}
+
+impl RowFile {
+    /// The file of that name, cut off after `done` rows.
+    fn open(folder: &Path, name: String, done: usize) -> Result<Self> {
+        let path = folder.join(&name);
+        let shown = path.display().to_string();
+        let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
+        let mut file = file.map_err(|e| anyhow!("cannot write `{shown}`: {e}"))?;
+        let mut end = 0;
+        let mut rows = 0;
+        let mut input = BufReader::new(&file);
+        while done > 0 && rows < done {
+            let block = Block::read(&mut input).map_err(|e| {
+                anyhow!("cannot go on: `{shown}` has {rows} of the {done} rows that were finished ({e}); to begin anew, leave out --resume")
+            })?;
+            rows += block.rows;
+            end += block.size();
+        }
+        if rows > done {
+            bail!("cannot go on: the rows in `{shown}` are not those of the state; to begin anew, leave out --resume");
+        }
+        drop(input);
+        file.set_len(end)?;
+        file.seek(io::SeekFrom::Start(end))?;
+        Ok(Self { name, path, file })
+    }
+
+    fn put_header(&mut self, bytes: &[u8]) -> Result<()> {
+        self.put(bytes, 0)
+    }
+
+    /// Appends rows, and sees to it that they are on the disk: a state may count on them.
+    fn put(&mut self, bytes: &[u8], rows: usize) -> Result<()> {
+        let append = || -> io::Result<()> {
+            let number = |n: usize| u32::try_from(n).map(u32::to_le_bytes).map_err(io::Error::other);
+            let mut out = BufWriter::new(&self.file);
+            out.write_all(&number(bytes.len())?)?;
+            out.write_all(&number(rows)?)?;
+            out.write_all(bytes)?;
+            out.write_all(&crc32fast::hash(bytes).to_le_bytes())?;
+            out.flush()?;
+            drop(out);
+            self.file.sync_data()
+        };
+        append().map_err(|e| anyhow!("cannot write `{}`: {e}", self.path.display()))
+    }
+
+    /// The content: all blocks, of which the rows must be so many.
+    fn copy(&self, rows: usize, out: &mut dyn Write) -> io::Result<()> {
+        let mut input = BufReader::new(File::open(&self.path)?);
+        let mut found = 0;
+        while found < rows {
+            let block = Block::read(&mut input)?;
+            out.write_all(&block.bytes)?;
+            found += block.rows;
+        }
+        Ok(())
+    }
+}
+
+struct Block {
+    rows: usize,
+    bytes: Vec<u8>,
+}
+
+impl Block {
+    fn read(input: &mut impl Read) -> io::Result<Self> {
+        let mut number = || -> io::Result<u32> {
+            let mut bytes = [0; 4];
+            input.read_exact(&mut bytes)?;
+            Ok(u32::from_le_bytes(bytes))
+        };
+        let (length, rows) = (number()?, number()?);
+        let mut bytes = Vec::new();
+        input.take(u64::from(length)).read_to_end(&mut bytes)?;
+        let mut checksum = [0; 4];
+        input.read_exact(&mut checksum)?;
+        if crc32fast::hash(&bytes) != u32::from_le_bytes(checksum) {
+            return Err(io::Error::other("a finished row is damaged"));
+        }
+        Ok(Self { rows: rows as usize, bytes })
+    }
+
+    /// In the file.
+    fn size(&self) -> u64 {
+        self.bytes.len() as u64 + 12
+    }
+}
