@@ -2,7 +2,10 @@
 //!
 //! A picture is drawn in bands of rows, so that memory is bounded whatever its size; a band in dispatches whose size follows the time
 //! that they take.
-use crate::device::{Error, Gpu, Pass};
+#[cfg(feature = "native")]
+use crate::device::{self, Gpu};
+use crate::error::Error;
+use crate::machine::{Machine, Usage};
 use crate::pace::Pace;
 use crate::scene::{self, Frame, Region};
 use antumbra::eval::wgsl::{FORMS, Kind};
@@ -10,8 +13,6 @@ use antumbra::geom::{Film, Rect};
 use antumbra::trace::{Sign, Surface};
 use antumbra_interval::Interval;
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
-use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline};
 
 /// What is proved of a pixel.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -50,16 +51,16 @@ pub struct Proved {
 }
 
 /// The kernels of one scene, compiled.
-pub struct Kernels {
+pub struct Kernels<M: Machine> {
     /// Surfaces, whole light, its first division, each further one.
-    stages: [Stage; STAGES],
+    stages: [Stage<M::Pipeline>; STAGES],
     frame: Frame,
     regions: Vec<Region>,
     lights: Vec<Rect>,
 }
 
-struct Stage {
-    pipeline: ComputePipeline,
+struct Stage<P> {
+    pipeline: P,
     pace: Pace,
 }
 
@@ -95,23 +96,17 @@ fn text(surfaces: &[Surface<'_>], film: &Film, lights: &[Rect]) -> Result<(Frame
     Ok((frame, regions, format!("{FORMS}\n{}\n{functions}", include_str!("kernels/frame.wgsl"))))
 }
 
-impl Kernels {
+impl<M: Machine> Kernels<M> {
     /// Compiles the kernels for surfaces on a film under lights, or takes them from those that the GPU has compiled before.
     ///
     /// # Errors
     /// Why the scene stays on the CPU.
-    pub fn new(
-        gpu: &Gpu,
-        surfaces: &[Surface<'_>],
-        film: &Film,
-        lights: &[Rect],
-        tolerance: f64,
-    ) -> Result<Self, Error> {
+    pub fn new(gpu: &M, surfaces: &[Surface<'_>], film: &Film, lights: &[Rect], tolerance: f64) -> Result<Self, Error> {
         let (frame, regions, common) = text(surfaces, film, lights)?;
         let primary = format!("{common}\n{}", include_str!("kernels/primary.wgsl"));
         let shadow = format!("{common}\n{}", include_str!("kernels/shadow.wgsl"));
         let begin = if gpu.is_software() { 64 } else { 4096 };
-        let stage = |text: &str, entry: &str, constants: &[(&str, f64)]| -> Result<Stage, Error> {
+        let stage = |text: &str, entry: &str, constants: &[(&str, f64)]| -> Result<Stage<M::Pipeline>, Error> {
             Ok(Stage { pipeline: gpu.pipeline(text, entry, constants)?, pace: Pace::new(begin) })
         };
         // Of the tolerance, as a number of parts.
@@ -135,58 +130,75 @@ impl Kernels {
     ///
     /// # Errors
     /// Those of the device.
-    pub fn prove(&self, gpu: &Gpu, stop: &AtomicBool, progress: &mut dyn FnMut(f64)) -> Result<Proved, Error> {
+    pub async fn prove_async(
+        &self,
+        gpu: &M,
+        stop: &AtomicBool,
+        progress: &mut dyn FnMut(f64),
+    ) -> Result<Proved, Error> {
         let [width, height] = [self.frame.width, self.frame.height];
         // Whole tiles of 8 x 8 pixels.
         let rows = (BAND / width / 8 * 8).max(8).min(height);
         let mut run = Run::new(gpu, self, rows * width, stop, progress)?;
         for first in (0..height).step_by(rows as usize) {
-            run.band(first, rows.min(height - first))?;
+            run.band(first, rows.min(height - first)).await?;
         }
         Ok(run.finish())
     }
 }
 
+#[cfg(feature = "native")]
+impl Kernels<Gpu> {
+    /// [`prove_async`](Self::prove_async), where there is nothing else to be done meanwhile.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn prove(&self, gpu: &Gpu, stop: &AtomicBool, progress: &mut dyn FnMut(f64)) -> Result<Proved, Error> {
+        device::finish(self.prove_async(gpu, stop, progress))
+    }
+}
+
 /// The buffers of a band, and what is proved so far.
-struct Run<'a> {
-    gpu: &'a Gpu,
-    kernels: &'a Kernels,
+struct Run<'a, M: Machine> {
+    gpu: &'a M,
+    kernels: &'a Kernels<M>,
     stop: &'a AtomicBool,
     progress: &'a mut dyn FnMut(f64),
-    frame: Buffer,
-    found: Buffer,
-    sums: Buffer,
-    before: Buffer,
-    hits: Buffer,
-    parts: [Buffer; 2],
-    spent: Buffer,
-    binds: [BindGroup; STAGES],
+    frame: M::Buffer,
+    found: M::Buffer,
+    sums: M::Buffer,
+    before: M::Buffer,
+    hits: M::Buffer,
+    parts: [M::Buffer; 2],
+    spent: M::Buffer,
+    binds: [M::Binding; STAGES],
     proved: Proved,
     clocked: bool,
     /// Pixels times passes that are done.
     done: u64,
 }
 
-impl<'a> Run<'a> {
+impl<'a, M: Machine> Run<'a, M> {
     fn new(
-        gpu: &'a Gpu,
-        kernels: &'a Kernels,
+        gpu: &'a M,
+        kernels: &'a Kernels<M>,
         pixels: u32,
         stop: &'a AtomicBool,
         progress: &'a mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         let pixels = u64::from(pixels);
-        let frame = gpu.filled(bytemuck::bytes_of(&kernels.frame), BufferUsages::UNIFORM)?;
-        let regions = gpu.filled(bytemuck::cast_slice(&kernels.regions), BufferUsages::UNIFORM)?;
-        let found = gpu.storage(16 * pixels)?;
-        let [sums, before] = [gpu.storage(8 * pixels)?, gpu.storage(8 * pixels)?];
-        let hits = gpu.storage(HEAD + 16 * pixels)?;
-        let list = || gpu.storage(HEAD + PART * PARTS * pixels);
+        let frame = gpu.filled(bytemuck::bytes_of(&kernels.frame), Usage::Uniform)?;
+        let regions = gpu.filled(bytemuck::cast_slice(&kernels.regions), Usage::Uniform)?;
+        let storage = |bytes: u64| gpu.buffer(bytes, Usage::Storage);
+        let found = storage(16 * pixels)?;
+        let [sums, before] = [storage(8 * pixels)?, storage(8 * pixels)?];
+        let hits = storage(HEAD + 16 * pixels)?;
+        let list = || storage(HEAD + PART * PARTS * pixels);
         let parts = [list()?, list()?];
-        let spent = gpu.storage(16)?;
+        let spent = storage(16)?;
         let pipeline = |k: usize| &kernels.stages[k].pipeline;
         let common = [(0, &frame), (1, &regions), (2, &found), (3, &sums), (7, &spent)];
-        let light = |k: usize, more: &[(u32, &Buffer)]| gpu.bind(pipeline(k), &[&common[..], more].concat());
+        let light = |k: usize, more: &[(u32, &M::Buffer)]| gpu.bind(pipeline(k), &[&common[..], more].concat());
         let binds = [
             gpu.bind(pipeline(0), &common[..3])?,
             light(1, &[(5, &hits)])?,
@@ -217,7 +229,7 @@ impl<'a> Run<'a> {
     }
 
     /// Runs `groups` groups of a stage, each of which does `each` items, in dispatches of the stage's pace. `pixels` of work are then done.
-    fn stage(
+    async fn stage(
         &mut self,
         stage: usize,
         place: usize,
@@ -237,11 +249,11 @@ impl<'a> Run<'a> {
             let count = (part * each).min(frame.count - first * each);
             let frame = Frame { first: frame.first + first * each, count, ..frame };
             self.gpu.write(&self.frame, bytemuck::bytes_of(&frame));
-            let begin = Instant::now();
-            let times = self.gpu.run(&[Pass { pipeline, bind: &self.binds[stage], groups: [part, 1, 1] }])?;
-            pace.took(part, begin.elapsed().as_secs_f64());
-            self.clocked &= !times.is_empty();
-            self.proved.seconds[place] += times.iter().sum::<f64>();
+            let begin = self.gpu.seconds();
+            let time = self.gpu.run(pipeline, &self.binds[stage], part).await?;
+            pace.took(part, self.gpu.seconds() - begin);
+            self.clocked &= time.is_some();
+            self.proved.seconds[place] += time.unwrap_or(0.0);
             first += part;
             self.tell(pixels * u64::from(first) / u64::from(groups));
         }
@@ -257,7 +269,7 @@ impl<'a> Run<'a> {
         (self.progress)((self.done + more) as f64 / all as f64);
     }
 
-    fn band(&mut self, top: u32, rows: u32) -> Result<(), Error> {
+    async fn band(&mut self, top: u32, rows: u32) -> Result<(), Error> {
         let whole = self.kernels.frame;
         let pixels = rows * whole.width;
         let work = u64::from(pixels);
@@ -266,8 +278,8 @@ impl<'a> Run<'a> {
         let tiles = across * rows.div_ceil(8);
         // What a dispatch that failed silently left unwritten must not be what was written for another band.
         self.gpu.clear(&[&self.found]);
-        self.stage(0, 0, Frame { first: top / 8 * across, count: tiles, ..base }, tiles, 1, work)?;
-        let mut found: Vec<[u32; 4]> = self.gpu.read(&self.found)?;
+        self.stage(0, 0, Frame { first: top / 8 * across, count: tiles, ..base }, tiles, 1, work).await?;
+        let mut found: Vec<[u32; 4]> = self.gpu.read_all(&self.found).await?;
         found.truncate(pixels as usize);
         self.proved.evaluations[0] += found.iter().map(|f| u64::from(f[3])).sum::<u64>();
         let quantum = whole.quantum();
@@ -277,21 +289,22 @@ impl<'a> Run<'a> {
             let frame = base.lit_by(light);
             let place = 1 + LIGHT * k;
             let all = Frame { first: 0, count: pixels, ..frame };
-            self.stage(1, place, all, pixels.div_ceil(GROUP), GROUP, work)?;
-            let hits = self.items(&self.hits, 16)?;
+            self.stage(1, place, all, pixels.div_ceil(GROUP), GROUP, work).await?;
+            let hits = self.items(&self.hits, 16).await?;
             self.proved.divided[0] += u64::from(hits);
-            self.stage(2, place + 1, Frame { first: 0, count: hits, ..frame }, hits, 1, work)?;
+            self.stage(2, place + 1, Frame { first: 0, count: hits, ..frame }, hits, 1, work).await?;
             for division in 0..DIVISIONS {
                 let list = &self.parts[division % 2];
-                let parts = self.items(list, PART)?;
+                let parts = self.items(list, PART).await?;
                 self.proved.divided[1 + division] += u64::from(parts);
                 self.gpu.copy(&self.sums, &self.before);
                 self.gpu.clear(&[&self.parts[(division + 1) % 2]]);
                 let count = Frame { first: 0, count: parts, ..frame };
-                self.stage(3 + division, place + 2 + division, count, parts.div_ceil(GROUP / 4), GROUP / 4, work)?;
+                self.stage(3 + division, place + 2 + division, count, parts.div_ceil(GROUP / 4), GROUP / 4, work)
+                    .await?;
             }
-            self.proved.evaluations[1] += u64::from(self.gpu.read_first(&self.spent)?);
-            let sums: Vec<[u32; 2]> = self.gpu.read(&self.sums)?;
+            self.proved.evaluations[1] += u64::from(self.gpu.read_first(&self.spent).await?);
+            let sums: Vec<[u32; 2]> = self.gpu.read_all(&self.sums).await?;
             // Sums of integers, exact; what is lit and what is hidden are different parts of the light.
             let share = |n: u32| f64::from(n) / f64::from(1_u32 << 30);
             let brackets = sums.iter().map(|[lit, dark]| [share(*lit), 1.0 - share(*dark)]);
@@ -301,8 +314,8 @@ impl<'a> Run<'a> {
     }
 
     /// How many items of so many bytes a list holds; those that found no place are not in it.
-    fn items(&self, list: &Buffer, bytes: u64) -> Result<u32, Error> {
-        Ok(self.gpu.read_first(list)?.min(((list.size() - HEAD) / bytes) as u32))
+    async fn items(&self, list: &M::Buffer, bytes: u64) -> Result<u32, Error> {
+        Ok(self.gpu.read_first(list).await?.min(((self.gpu.size(list) - HEAD) / bytes) as u32))
     }
 
     fn finish(mut self) -> Proved {

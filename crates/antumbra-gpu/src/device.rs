@@ -1,37 +1,11 @@
 //! Adapters, and one of them opened: buffers, pipelines, passes with their times.
-use crate::probe::{self, Doubt};
-use antumbra::eval::wgsl::Refusal;
+use crate::error::Error;
+use crate::machine::{Machine, Usage};
+use crate::probe;
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Instant;
 use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline, Features};
-
-/// Why the GPU does not do it.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Error {
-    /// There is no GPU, or no driver for it.
-    #[error("no adapter was found (a Vulkan, Metal or Direct3D 12 driver is needed)")]
-    NoAdapter,
-    /// Its arithmetic is not what proofs need.
-    #[error("the adapter `{adapter}` failed the start-up probe: {doubt}")]
-    Doubt {
-        /// Its name.
-        adapter: String,
-        /// What is wrong.
-        doubt: Doubt,
-    },
-    /// The formula stays on the CPU.
-    #[error(transparent)]
-    Refused(#[from] Refusal),
-    /// The scene stays on the CPU.
-    #[error("{0}")]
-    Scene(&'static str),
-    /// The driver gave up, ran out of memory, or was reset.
-    #[error("the GPU failed: {0}")]
-    Failed(String),
-    /// Somebody asked to stop.
-    #[error("stopped")]
-    Stopped,
-}
 
 /// An adapter and what the probe says of it.
 #[derive(Clone, Debug)]
@@ -62,6 +36,7 @@ pub struct Gpu {
     pub(crate) largest: u64,
     /// What was compiled, by its text, entry point and constants.
     pipelines: Mutex<HashMap<(String, String), ComputePipeline>>,
+    begin: Instant,
     failures: Arc<Mutex<Failures>>,
 }
 
@@ -77,6 +52,11 @@ pub(crate) struct Pass<'a> {
     pub(crate) pipeline: &'a ComputePipeline,
     pub(crate) bind: &'a BindGroup,
     pub(crate) groups: [u32; 3],
+}
+
+/// What work on a [`Gpu`] comes to: it never waits for anything but the GPU itself.
+pub(crate) fn finish<T>(work: impl Future<Output = T>) -> T {
+    pollster::block_on(work)
 }
 
 fn instance() -> wgpu::Instance {
@@ -171,12 +151,12 @@ impl Gpu {
         let software = info.device_type == wgpu::DeviceType::Cpu;
         let limits = device.limits();
         let largest = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
-        let pipelines = Mutex::default();
-        Ok(Self { device, queue, name: info.name, software, period, largest, pipelines, failures })
+        let (pipelines, begin) = (Mutex::default(), Instant::now());
+        Ok(Self { device, queue, name: info.name, software, period, largest, pipelines, begin, failures })
     }
 
     fn probe(&self) -> Result<probe::Report, Error> {
-        probe::run(self)
+        finish(probe::run(self))
     }
 
     /// The adapter's name.
@@ -363,5 +343,61 @@ impl Gpu {
         self.wait()?;
         let view = copy.slice(..).get_mapped_range().map_err(|e| Error::Failed(e.to_string()))?;
         Ok(bytemuck::pod_collect_to_vec(&view))
+    }
+}
+
+/// Orders are carried out where they are given: nothing is left to wait for.
+impl Machine for Gpu {
+    type Buffer = Buffer;
+    type Pipeline = ComputePipeline;
+    type Binding = BindGroup;
+
+    fn name(&self) -> &str {
+        &self.name
+    }
+
+    fn is_software(&self) -> bool {
+        self.software
+    }
+
+    fn seconds(&self) -> f64 {
+        self.begin.elapsed().as_secs_f64()
+    }
+
+    fn buffer(&self, bytes: u64, usage: Usage) -> Result<Buffer, Error> {
+        let usage = if usage == Usage::Uniform { BufferUsages::UNIFORM } else { BufferUsages::STORAGE };
+        self.buffer(bytes, usage)
+    }
+
+    fn size(&self, buffer: &Buffer) -> u64 {
+        buffer.size()
+    }
+
+    fn write(&self, buffer: &Buffer, content: &[u8]) {
+        self.write(buffer, content);
+    }
+
+    fn pipeline(&self, text: &str, entry: &str, constants: &[(&str, f64)]) -> Result<ComputePipeline, Error> {
+        self.pipeline(text, entry, constants)
+    }
+
+    fn bind(&self, pipeline: &ComputePipeline, buffers: &[(u32, &Buffer)]) -> Result<BindGroup, Error> {
+        self.bind(pipeline, buffers)
+    }
+
+    fn clear(&self, buffers: &[&Buffer]) {
+        self.clear(buffers);
+    }
+
+    fn copy(&self, from: &Buffer, to: &Buffer) {
+        self.copy(from, to);
+    }
+
+    async fn run(&self, pipeline: &ComputePipeline, bind: &BindGroup, groups: u32) -> Result<Option<f64>, Error> {
+        Ok(self.run(&[Pass { pipeline, bind, groups: [groups, 1, 1] }])?.first().copied())
+    }
+
+    async fn read<T: bytemuck::Pod>(&self, buffer: &Buffer, bytes: u64) -> Result<Vec<T>, Error> {
+        self.read_part(buffer, bytes)
     }
 }

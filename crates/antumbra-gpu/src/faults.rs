@@ -1,6 +1,5 @@
 //! What goes wrong on a GPU ends in an error that says so, and in a picture all the same: the processor's.
-use crate::device::{Error, Gpu};
-use crate::{Kernels, assist};
+use crate::{Error, Gpu, Kernels, assist};
 use antumbra::geom::{Film, Rect};
 use antumbra::render::{RenderSpec, Renderer, RunSpec};
 use antumbra::scene::named;

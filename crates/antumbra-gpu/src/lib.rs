@@ -3,27 +3,41 @@
 //! Kernels are WGSL, generated for each formula by [`antumbra::eval::wgsl`]; they run on any adapter that wgpu reaches and that passes the
 //! start-up [`probe`]. What they claim is a theorem about the real function, as on the CPU: their 32-bit arithmetic bounds its own
 //! rounding and does not trust the compiler of the driver. What 32 bits cannot prove is left open, and the CPU finishes it.
+//!
+//! The host of the kernels speaks to a [`Machine`]. With the feature `native` that is a [`Gpu`] of wgpu's; the web page brings its own.
 #![forbid(unsafe_code)]
 
 mod assist;
 mod certified;
 mod compare;
+#[cfg(feature = "native")]
 mod device;
-#[cfg(test)]
+mod error;
+#[cfg(all(test, feature = "native"))]
 mod faults;
+mod machine;
 mod pace;
+#[cfg(feature = "native")]
 mod paper;
 pub mod probe;
 mod scene;
-#[cfg(test)]
+#[cfg(all(test, feature = "native"))]
 mod tests;
+#[cfg(feature = "native")]
 mod throughput;
-#[cfg(test)]
+#[cfg(all(test, feature = "native"))]
 mod twin;
 
-pub use assist::{Share, assist};
+#[cfg(feature = "native")]
+pub use assist::assist;
+pub use assist::{Share, kernels};
 pub use certified::{Kernels, Pixel, Proved, check};
 pub use compare::{Comparison, compare};
-pub use device::{Adapter, Error, Gpu, adapters};
+#[cfg(feature = "native")]
+pub use device::{Adapter, Gpu, adapters};
+pub use error::Error;
+pub use machine::{Machine, Usage};
+#[cfg(feature = "native")]
 pub use paper::{Found, Paper};
+#[cfg(feature = "native")]
 pub use throughput::{Throughput, throughput};

@@ -1,5 +1,6 @@
 //! The paper's method on the GPU: grid, beam casting, initial shadow beams, sub-beams.
-use crate::device::{Error, Gpu, Pass};
+use crate::device::{Gpu, Pass};
+use crate::error::Error;
 use crate::scene::{self, Frame, Region};
 use antumbra::eval::wgsl::{FORMS, INTERVALS, Kind, outward};
 use antumbra::geom::{Film, Rect};

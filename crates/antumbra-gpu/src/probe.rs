@@ -3,11 +3,11 @@
 //! Asked on the user's own adapter, with the very text that the kernels contain: is every fenced operation rounded
 //! by itself, alone and in expressions that compilers rewrite; what happens to subnormal numbers. A
 //! probe is no proof of a compiler; it finds those that do not respect the fence.
-use crate::device::{Error, Gpu, Pass};
+use crate::error::Error;
+use crate::machine::{Machine, Usage};
 use antumbra::eval::wgsl::{FORMS, FUNCTIONS};
 use antumbra_interval::Interval;
 use std::fmt;
-use wgpu::BufferUsages;
 
 /// What the probe found in order.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,24 +79,28 @@ pub(crate) fn text() -> String {
     format!("{FORMS}\n{FUNCTIONS}\n{}", include_str!("probe.wgsl"))
 }
 
-pub(crate) fn run(gpu: &Gpu) -> Result<Report, Error> {
-    run_text(gpu, &text())
+/// Probes a GPU of which nothing is known yet.
+///
+/// # Errors
+/// [`Error::Doubt`], or those of the device.
+pub async fn run<M: Machine>(gpu: &M) -> Result<Report, Error> {
+    run_text(gpu, &text()).await
 }
 
 /// Runs the probe with the given text: the real one, or one that was broken to see the probe find it.
-pub(crate) fn run_text(gpu: &Gpu, text: &str) -> Result<Report, Error> {
+pub(crate) async fn run_text<M: Machine>(gpu: &M, text: &str) -> Result<Report, Error> {
     let cases = cases();
-    let zero = gpu.filled(bytemuck::cast_slice(&[0_u32; 4]), BufferUsages::UNIFORM)?;
-    let input = gpu.filled(bytemuck::cast_slice(&cases), BufferUsages::STORAGE)?;
-    let fenced = gpu.storage((cases.len() * 48) as u64)?;
-    let bare = gpu.storage((cases.len() * 24) as u64)?;
-    let functions = gpu.storage((cases.len() * 48) as u64)?;
+    let zero = gpu.filled(bytemuck::cast_slice(&[0_u32; 4]), Usage::Uniform)?;
+    let input = gpu.filled(bytemuck::cast_slice(&cases), Usage::Storage)?;
+    let fenced = gpu.buffer((cases.len() * 48) as u64, Usage::Storage)?;
+    let bare = gpu.buffer((cases.len() * 24) as u64, Usage::Storage)?;
+    let functions = gpu.buffer((cases.len() * 48) as u64, Usage::Storage)?;
     let pipeline = gpu.pipeline(text, "probe", &[])?;
     let bind = gpu.bind(&pipeline, &[(0, &zero), (1, &input), (2, &fenced), (3, &bare), (4, &functions)])?;
-    gpu.run(&[Pass { pipeline: &pipeline, bind: &bind, groups: [cases.len().div_ceil(64) as u32, 1, 1] }])?;
-    let fenced: Vec<[f32; 12]> = gpu.read(&fenced)?;
-    let bare: Vec<[f32; 6]> = gpu.read(&bare)?;
-    let functions: Vec<[[f32; 2]; 6]> = gpu.read(&functions)?;
+    gpu.run(&pipeline, &bind, cases.len().div_ceil(64) as u32).await?;
+    let fenced: Vec<[f32; 12]> = gpu.read_all(&fenced).await?;
+    let bare: Vec<[f32; 6]> = gpu.read_all(&bare).await?;
+    let functions: Vec<[[f32; 2]; 6]> = gpu.read_all(&functions).await?;
 
     let mut report = Report { cases: cases.len(), subnormals: true, rewritten: [0; 6] };
     let (mut first, mut counts) = (None, [0; FENCED.len()]);

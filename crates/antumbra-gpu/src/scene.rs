@@ -1,5 +1,5 @@
 //! A scene as kernels see it: formulas as text, numbers rounded outward.
-use crate::device::Error;
+use crate::error::Error;
 use antumbra::eval::wgsl::{self, FLOOR, Kind, Reach, ball, outward};
 use antumbra::geom::{Clip, Film, Rect, Vec3};
 use antumbra::tape::Tape;

@@ -1,5 +1,6 @@
 //! Arithmetic on the adapter at hand: bit for bit that of the Rust twin; the probe; tapes against enclosures in 64 bits.
-use crate::device::{Error, Gpu, Pass};
+use crate::device::{Gpu, Pass, finish};
+use crate::error::Error;
 use crate::probe;
 use crate::twin::{R, Twin, TwinSlope, take_lost};
 use antumbra::eval::wgsl::{self, FLOOR, FORMS, FUNCTIONS, INTERVAL_FUNCTIONS, INTERVALS, Kind};
@@ -344,7 +345,7 @@ fn intervals_on_the_gpu_enclose_and_are_tight() {
 #[test]
 fn the_probe_passes_here_and_finds_a_broken_fence() {
     let Some(gpu) = gpu() else { return };
-    let report = probe::run(&gpu).unwrap();
+    let report = finish(probe::run(&gpu)).unwrap();
     let text = probe::text();
     for (what, broken) in [
         (
@@ -368,13 +369,16 @@ fn the_probe_passes_here_and_finds_a_broken_fence() {
     ] {
         let changed = text.replace(broken.0, broken.1);
         assert_ne!(changed, text);
-        assert!(matches!(probe::run_text(&gpu, &changed), Err(Error::Doubt { .. })), "{what} was not found");
+        assert!(matches!(finish(probe::run_text(&gpu, &changed)), Err(Error::Doubt { .. })), "{what} was not found");
     }
     // Where this compiler rewrites at all, a fence that is none must be found.
     if report.rewritten[..4].iter().any(|n| *n > 0) {
         let bare = text.replace("return bitcast<f32>(bitcast<u32>(x) ^ runtime_zero());", "return x;");
         assert_ne!(bare, text);
-        assert!(matches!(probe::run_text(&gpu, &bare), Err(Error::Doubt { .. })), "a missing fence was not found");
+        assert!(
+            matches!(finish(probe::run_text(&gpu, &bare)), Err(Error::Doubt { .. })),
+            "a missing fence was not found"
+        );
     }
 }
 

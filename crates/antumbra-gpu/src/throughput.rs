@@ -1,5 +1,6 @@
 //! How many operations the adapter does in a second, in 32 and in 64 bits: what the kernels are to be measured against.
-use crate::device::{Error, Gpu, Pass};
+use crate::device::{Gpu, Pass};
+use crate::error::Error;
 use std::time::Instant;
 use wgpu::BufferUsages;
 
