@@ -76,8 +76,8 @@ pub struct RenderSpec {
     pub rectangles: u32,
     /// Certified: how penumbrae are resolved.
     pub penumbra: Penumbra,
-    /// Whether long formulas are shortened region by region ([`crate::eval::Regions`]). All claims hold with and without; the
-    /// bits may differ.
+    /// Whether long formulas are shortened region by region ([`crate::eval::Regions`]) and, by the certified method, unions are drawn as
+    /// their parts. All claims hold with and without; the bits may differ.
     pub regions: bool,
 }
 

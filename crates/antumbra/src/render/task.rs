@@ -73,6 +73,10 @@ impl Task {
         } else {
             None
         };
+        if spec.regions && spec.method == Method::Certified {
+            let parts = |object: Object| object.parts(film.camera.eye).unwrap_or_else(|| vec![object]);
+            objects = objects.into_iter().flat_map(parts).collect();
+        }
         let has_floor = floor.is_some();
         objects.extend(floor);
         if spec.regions {

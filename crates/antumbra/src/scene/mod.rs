@@ -13,6 +13,7 @@ mod orbit;
 mod parameter;
 mod place;
 mod presets;
+mod union;
 
 pub use about::About;
 pub use animation::{Animation, Course, Motion};

@@ -1,7 +1,7 @@
 //! Shorter tapes: operations replaced by simpler ones, and what nobody reads any more left out.
 use super::slots::{Step, allot};
 use super::{Op, Tape};
-use crate::expr::Unary;
+use crate::expr::{Binary, Unary};
 use antumbra_interval::Interval;
 
 /// What becomes of an operation. Whether that is right is for the caller to prove.
@@ -53,6 +53,29 @@ impl Tape {
         let root = self.clauses.last().map_or(0, |last| place[last.out as usize] as usize);
         steps.truncate(root + 1);
         Self::of_steps(&steps, &constants, self.continuous)
+    }
+
+    /// The functions of which this one is the minimum, or whatever operation is asked for, by its outermost operations: itself, if it is none.
+    /// Where they would be more than `most`, some of them stay together. Each keeps the flag of continuity, which is one of all operations.
+    ///
+    /// Cost: the length of the tape for each of them.
+    pub(crate) fn terms(&self, op: Binary, most: usize) -> Vec<Self> {
+        let (mut stack, mut terms) = (vec![self.clone()], Vec::new());
+        while let Some(tape) = stack.pop() {
+            let is_one = tape.clauses.last().is_some_and(|clause| clause.op == Op::Binary(op));
+            if !is_one || stack.len() + terms.len() + 2 > most {
+                terms.push(tape);
+                continue;
+            }
+            let mut fates = vec![Fate::Keep; tape.clauses.len()];
+            for operand in [Fate::Second, Fate::First] {
+                if let Some(last) = fates.last_mut() {
+                    *last = operand;
+                }
+                stack.push(tape.rewritten(&fates));
+            }
+        }
+        terms
     }
 
     /// The steps that the last one depends on, with the constants that they name.
