@@ -59,11 +59,11 @@ fn gradient_bits(g: &Gradient) -> Vec<[u64; 2]> {
     std::iter::once(g.value).chain(g.partials).map(bits).collect()
 }
 
-fn agree(name: &str, tape: &Tape, r: &mut Rng) {
+fn agree(name: &str, tape: &dyn Inclusion, r: &mut Rng) {
     Level::all().for_each(|level| agree_on(level, name, tape, r));
 }
 
-fn agree_on(level: Level, name: &str, tape: &Tape, r: &mut Rng) {
+fn agree_on(level: Level, name: &str, tape: &dyn Inclusion, r: &mut Rng) {
     let (mut work, mut fresh) = (Workspace::on(level), Workspace::default());
     for count in [1, 2, 3, 7, 8, 9, 63, 64, 65, 130] {
         let eye = Vec3::new(3.0 * r.f64(), [0.0, r.f64()][r.usize(0..2)], 1.0);
@@ -109,6 +109,20 @@ fn every_operator() {
     for operator in Operator::all() {
         (0..4).for_each(|_| agree(&operator.name(), &tape(operator), &mut r));
     }
+}
+
+/// Questions of one batch are answered by different tapes.
+#[test]
+fn a_formula_that_is_shortened_region_by_region() {
+    let mut r = Rng::with_seed(6);
+    let pillar = |k: usize| {
+        let (x, y) = (0.3 * (k % 4) as f64 - 0.5, 0.4 * (k / 4) as f64 - 0.5);
+        format!("max(max(abs(x - ({x})), abs(y - ({y}))) - 0.05, abs(z) - 0.{}) + x^2/50", k + 2)
+    };
+    let all = (0..12).map(pillar).reduce(|a, b| format!("min({a}, {b})")).expect("pillars");
+    let tape = Tape::compile(&Formula::parse(&all).expect("a formula")).expect("a formula");
+    let regions = tape.in_regions(&Box3::cube(1.0)).expect("it is long enough");
+    agree("pillars", &*regions, &mut r);
 }
 
 #[test]

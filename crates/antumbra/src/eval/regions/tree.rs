@@ -1,10 +1,13 @@
 //! The tree of regions: which tape answers which question.
 use super::policy;
 use super::valid::Valid;
-use crate::eval::{BeamPoint, Gradient, Inclusion, JetPoint, PointJet, QuadraticPoint, ShaftPoint, Workspace};
+use crate::eval::{
+    BeamPoint, FanPiece, Gradient, Inclusion, JetPoint, PointJet, QuadraticPoint, RayPiece, ShaftPoint, Workspace,
+};
 use crate::geom::Box3;
 use crate::tape::Tape;
 use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::lanes::block::MOST;
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Interval};
 use std::sync::atomic::{AtomicU64, Ordering};
@@ -95,6 +98,43 @@ impl Regions {
         tape
     }
 
+    /// Many questions: those that one tape answers together.
+    fn ask_all<Q: Copy, A: Copy>(
+        &self,
+        questions: &[Q],
+        out: &mut [A],
+        region: impl Fn(&Q) -> Box3,
+        mut ask: impl FnMut(&Tape, &[Q], &mut [A]),
+    ) {
+        assert_eq!(questions.len(), out.len(), "as many answers as questions");
+        for (questions, out) in questions.chunks(MOST).zip(out.chunks_mut(MOST)) {
+            let mut tapes = [&*self.whole; MOST];
+            for (tape, question) in tapes.iter_mut().zip(questions) {
+                *tape = self.tape(&region(question));
+            }
+            let tapes = &tapes[..questions.len()];
+            if tapes.iter().all(|tape| std::ptr::eq(*tape, tapes[0])) {
+                ask(tapes[0], questions, out);
+                continue;
+            }
+            let (mut answered, mut places) = ([false; MOST], [0; MOST]);
+            let (mut some, mut answers) = ([questions[0]; MOST], [out[0]; MOST]);
+            for first in 0..questions.len() {
+                let mut n = 0;
+                for k in first..questions.len() {
+                    if !answered[k] && std::ptr::eq(tapes[k], tapes[first]) {
+                        (answered[k], places[n], some[n]) = (true, k, questions[k]);
+                        n += 1;
+                    }
+                }
+                if n > 0 {
+                    ask(tapes[first], &some[..n], &mut answers[..n]);
+                    places[..n].iter().zip(&answers).for_each(|(place, answer)| out[*place] = *answer);
+                }
+            }
+        }
+    }
+
     /// What the tree holds and what it has done so far.
     #[must_use]
     pub fn count(&self) -> RegionCount {
@@ -160,6 +200,24 @@ impl Inclusion for Regions {
 
     fn gradient(&self, region: &Box3, work: &mut Workspace) -> Gradient {
         self.tape(region).gradient(region, work)
+    }
+
+    fn ranges(&self, pieces: &[RayPiece], out: &mut [Interval], work: &mut Workspace) {
+        self.ask_all(pieces, out, RayPiece::region, |tape, pieces, out| tape.ranges(pieces, out, work));
+    }
+
+    fn gradients(&self, regions: &[Box3], out: &mut [Gradient], work: &mut Workspace) {
+        self.ask_all(regions, out, |region| *region, |tape, regions, out| tape.gradients(regions, out, work));
+    }
+
+    fn rays(&self, pieces: &[RayPiece], out: &mut [Dual<1>], work: &mut Workspace) {
+        let region = |piece: &RayPiece| Box3(piece.point().map(|x| x.value.range()));
+        self.ask_all(pieces, out, region, |tape, pieces, out| tape.rays(pieces, out, work));
+    }
+
+    fn beams(&self, pieces: &[FanPiece], out: &mut [Affine<3>], work: &mut Workspace) {
+        let region = |piece: &FanPiece| Box3(piece.fan.at(piece.t).map(|x| x.range()));
+        self.ask_all(pieces, out, region, |tape, pieces, out| tape.beams(pieces, out, work));
     }
 
     fn continuous_everywhere(&self) -> bool {
