@@ -204,7 +204,7 @@ pub(crate) struct SpecArgs {
     #[arg(long, value_name = "ORDER", default_value = "auto", value_parser = values::penumbra)]
     pub(crate) penumbra: Penumbra,
 
-    /// Ask every question of the whole formula: no shorter tapes for parts of space. Long formulas with many min and max take
+    /// Ask every question of the whole formula: no shorter tapes for parts of space, no parts of unions. Formulas with many min and max take
     /// much longer; no claim changes
     #[arg(long)]
     pub(crate) no_regions: bool,

@@ -1,8 +1,8 @@
 //! Pictures that are drawn in bands: which, and the finished rows of them until all are there.
 //!
-//! Finished rows go to files of rows in the folder `NAME.png.bands` beside the picture, one for the picture and one for each plane, every row with
-//! its checksum. They are as many as the saved state counts, or more, so that a render that was stopped goes on. When all rows
-//! are there, the files become what was asked for, and the folder goes.
+//! Finished rows go to files of rows in the folder `NAME.png.bands` beside the picture, one for the picture and one for each plane, with
+//! checksums, and with the fingerprint of the picture: rows of another one are never taken for its own. They are as many as the saved state counts, or
+//! more, so that a render that was stopped goes on. When all rows are there, the files become what was asked for, and the folder goes.
 
 use std::{
     fs::{self, File, OpenOptions},
@@ -13,7 +13,7 @@ use std::{
 
 use antumbra::{
     image::{COLOR_PLANE, Depth, npy_bytes, npy_header, png_codes, png_rows},
-    render::{Frame, Renderer},
+    render::{Frame, Renderer, fingerprint},
     scene::Exposure,
 };
 use anyhow::{Context, Result, anyhow, bail};
@@ -34,10 +34,11 @@ fn picture_name(depth: Depth) -> &'static str {
     }
 }
 
-/// How many rows to draw at a time; all of them if that is how it must or may be.
+/// How many rows to draw at a time; all of them if that is how it must or may be. Where less memory is allowed than some rows take, it is as few
+/// as can be.
 ///
 /// # Errors
-/// [`Usage`] where less memory is wanted than the picture can be drawn in.
+/// [`Usage`] where the whole picture is needed, and not allowed.
 pub(crate) fn rows(options: &RenderOptions) -> Result<usize> {
     let (spec, scene) = (&options.spec, &options.scene.scene);
     let lights = scene.lights.len();
@@ -92,11 +93,17 @@ impl Rows {
         let (Format::Png(depth), false) = (options.format, options.overlay.is_some()) else {
             bail!("only PNG files are drawn in bands");
         };
-        fs::create_dir_all(&folder).with_context(|| format!("cannot make the folder `{}`", folder.display()))?;
+        let shown = folder.display();
+        match fs::create_dir(&folder) {
+            // Not through a link.
+            Err(_) if fs::symlink_metadata(&folder).is_ok_and(|found| found.is_dir()) => {}
+            made => made.with_context(|| format!("cannot make the folder `{shown}`"))?,
+        }
+        let print = fingerprint(&options.scene.scene, &options.spec)?;
         let (width, height) = (options.spec.width, options.spec.height);
         let planes = options.planes.is_some().then(|| Frame::plane_names(options.scene.scene.lights.len()));
         let names = std::iter::once(picture_name(depth).to_owned()).chain(planes.into_iter().flatten());
-        let files = names.map(|name| RowFile::open(&folder, name, done)).collect::<Result<_>>()?;
+        let files = names.map(|name| RowFile::open(&folder, name, &print, done)).collect::<Result<_>>()?;
         Ok(Self { folder, _temporary: temporary, files, depth, width, height })
     }
 
@@ -116,7 +123,7 @@ impl Rows {
                 let plane = planes.require(&file.name)?;
                 let (bytes, own) = (npy_bytes(plane)?, npy_header(plane, rows.len())?);
                 if rows.start == 0 {
-                    file.put_header(&npy_header(plane, height)?)?;
+                    file.put(&npy_header(plane, height)?, 0)?;
                 }
                 file.put(&bytes[own.len()..], rows.len())?;
             }
@@ -153,11 +160,15 @@ impl Rows {
         &self.folder
     }
 
-    /// Takes the files away.
+    /// Takes away the files that this render wrote.
     pub(crate) fn remove(self) {
         let Self { folder, files, .. } = self;
-        for RowFile { path, .. } in files {
-            let _ = fs::remove_file(path);
+        for RowFile { path, file, begun, .. } in files {
+            let empty = file.metadata().is_ok_and(|found| found.len() == 0);
+            drop(file);
+            if begun || empty {
+                let _ = fs::remove_file(path);
+            }
         }
         // Fails, as it should, where something else is in it.
         let _ = fs::remove_dir(folder);
@@ -170,65 +181,93 @@ pub(crate) fn folder(picture: &Path) -> PathBuf {
     picture.with_file_name(format!("{name}.bands"))
 }
 
-/// A file of rows: blocks of `length: u32, rows: u32, bytes, CRC-32`, little endian. A block of 0 rows is what comes before them.
+/// A file of rows: blocks of `length: u32, rows: u32, bytes, CRC-32`, little endian. The first block tells whose rows they are; blocks of 0 rows are
+/// what comes before them.
 struct RowFile {
     name: String,
     path: PathBuf,
     file: File,
+    identity: Vec<u8>,
+    /// Whether what is in it is of this render: until it has rows, it leaves those of another one alone.
+    begun: bool,
 }
 
+/// How every file of rows begins, in its first block.
+const MAGIC: &[u8] = b"antumbra rows 1\n";
+
 impl RowFile {
-    /// The file of that name, cut off after `done` rows.
-    fn open(folder: &Path, name: String, done: usize) -> Result<Self> {
+    /// The file of that name, cut off after `done` rows; it is kept from other programs.
+    fn open(folder: &Path, name: String, print: &str, done: usize) -> Result<Self> {
         let path = folder.join(&name);
         let shown = path.display().to_string();
+        if fs::symlink_metadata(&path).is_ok_and(|found| !found.is_file()) {
+            bail!("cannot write `{shown}`: it is no plain file");
+        }
         let file = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(&path);
         let mut file = file.map_err(|e| anyhow!("cannot write `{shown}`: {e}"))?;
-        let mut end = 0;
-        let mut rows = 0;
+        if matches!(file.try_lock(), Err(fs::TryLockError::WouldBlock)) {
+            bail!("another program is drawing this picture: it has `{shown}`");
+        }
+        let identity = [MAGIC, print.as_bytes()].concat();
         let mut input = BufReader::new(&file);
-        while done > 0 && rows < done {
-            let block = Block::read(&mut input).map_err(|e| {
-                anyhow!("cannot go on: `{shown}` has {rows} of the {done} rows that were finished ({e}); to begin anew, leave out --resume")
-            })?;
-            rows += block.rows;
-            end += block.size();
+        let first = Block::read(&mut input);
+        let is_empty = file.metadata()?.len() == 0;
+        if !is_empty && !first.as_ref().is_ok_and(|block| block.bytes.starts_with(MAGIC)) {
+            bail!(
+                "cannot write `{shown}`: something else is in it; give the picture another name, or move that file away"
+            );
         }
-        if rows > done {
-            bail!("cannot go on: the rows in `{shown}` are not those of the state; to begin anew, leave out --resume");
+        let begun = done > 0;
+        if begun {
+            let anew = "to begin anew, leave out --resume";
+            if first.as_ref().map_or(&[][..], |block| &block.bytes) != identity {
+                bail!("cannot go on: the rows in `{shown}` are not of this picture; {anew}");
+            }
+            let (mut rows, mut end) = (0, first.map_or(0, |block| block.size()));
+            while rows < done {
+                let block = Block::read(&mut input).map_err(|e| {
+                    anyhow!("cannot go on: `{shown}` has {rows} of the {done} rows that were finished ({e}); {anew}")
+                })?;
+                if block.rows == 0 && rows > 0 || rows + block.rows > done {
+                    bail!("cannot go on: the rows in `{shown}` are not those of the state; {anew}");
+                }
+                rows += block.rows;
+                end += block.size();
+            }
+            drop(input);
+            file.set_len(end)?;
+            file.seek(io::SeekFrom::Start(end))?;
         }
-        drop(input);
-        file.set_len(end)?;
-        file.seek(io::SeekFrom::Start(end))?;
-        Ok(Self { name, path, file })
-    }
-
-    fn put_header(&mut self, bytes: &[u8]) -> Result<()> {
-        self.put(bytes, 0)
+        Ok(Self { name, path, file, identity, begun })
     }
 
     /// Appends rows, and sees to it that they are on the disk: a state may count on them.
     fn put(&mut self, bytes: &[u8], rows: usize) -> Result<()> {
-        let append = || -> io::Result<()> {
-            let number = |n: usize| u32::try_from(n).map(u32::to_le_bytes).map_err(io::Error::other);
-            let mut out = BufWriter::new(&self.file);
-            out.write_all(&number(bytes.len())?)?;
-            out.write_all(&number(rows)?)?;
-            out.write_all(bytes)?;
-            out.write_all(&crc32fast::hash(bytes).to_le_bytes())?;
-            out.flush()?;
-            drop(out);
+        let mut append = || -> io::Result<()> {
+            if !self.begun {
+                self.file.set_len(0)?;
+                self.file.rewind()?;
+                Block::write(&self.file, &self.identity, 0)?;
+                self.begun = true;
+            }
+            Block::write(&self.file, bytes, rows)?;
             self.file.sync_data()
         };
         append().map_err(|e| anyhow!("cannot write `{}`: {e}", self.path.display()))
     }
 
-    /// The content: all blocks, of which the rows must be so many.
+    /// The content: all blocks but the first, of which the rows must be so many.
     fn copy(&self, rows: usize, out: &mut dyn Write) -> io::Result<()> {
         let mut input = BufReader::new(File::open(&self.path)?);
+        if Block::read(&mut input)?.bytes != self.identity {
+            return Err(io::Error::other("the finished rows are of another picture"));
+        }
         let mut found = 0;
         while found < rows {
             let block = Block::read(&mut input)?;
+            if block.rows == 0 && found > 0 || found + block.rows > rows {
+                return Err(io::Error::other("the finished rows are damaged"));
+            }
             out.write_all(&block.bytes)?;
             found += block.rows;
         }
@@ -242,6 +281,16 @@ struct Block {
 }
 
 impl Block {
+    fn write(out: impl Write, bytes: &[u8], rows: usize) -> io::Result<()> {
+        let number = |n: usize| u32::try_from(n).map(u32::to_le_bytes).map_err(io::Error::other);
+        let mut out = BufWriter::new(out);
+        out.write_all(&number(bytes.len())?)?;
+        out.write_all(&number(rows)?)?;
+        out.write_all(bytes)?;
+        out.write_all(&crc32fast::hash(bytes).to_le_bytes())?;
+        out.flush()
+    }
+
     fn read(input: &mut impl Read) -> io::Result<Self> {
         let mut number = || -> io::Result<u32> {
             let mut bytes = [0; 4];

@@ -171,6 +171,8 @@ impl CompareOptions {
         let scene = animation::set(find_scene(&args.scene)?, &args.parameters.set)?;
         let (mut spec, run) = specs(args.spec, first, scene.scene.output);
         spec.floor |= scene.scene.floor_shown;
+        // The paper's methods have no parts of unions: all are to draw the same surfaces.
+        spec.unions &= args.methods.iter().all(|method| *method == Method::Certified);
         Ok(Self {
             scene,
             spec,
@@ -325,6 +327,7 @@ fn specs(args: SpecArgs, method: Method, wanted: Output) -> (RenderSpec, RunSpec
         rectangles: args.rectangles,
         penumbra: args.penumbra,
         regions: !args.no_regions,
+        unions: !args.no_regions,
         ..RenderSpec::default()
     };
     (spec, RunSpec { threads: args.threads })

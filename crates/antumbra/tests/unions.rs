@@ -1,7 +1,7 @@
 //! Unions drawn as their parts say what unions drawn as they are say, and what is true.
 use antumbra::audit::{Audit, AuditSpec};
 use antumbra::geom::Vec3;
-use antumbra::render::{Frame, RenderSpec, Renderer, RunSpec, Stats};
+use antumbra::render::{Frame, Method, RenderSpec, Renderer, RunSpec, Stats};
 use antumbra::scene::Scene;
 use std::sync::Arc;
 use std::time::Duration;
@@ -9,14 +9,14 @@ use std::time::Duration;
 const SIZE: usize = 24;
 const LIGHT: f64 = 3.0;
 
-fn frame(scene: &Arc<Scene>, regions: bool) -> (Frame, Stats) {
+fn frame(scene: &Arc<Scene>, unions: bool) -> (Frame, Stats) {
     let spec = RenderSpec {
         width: SIZE,
         height: SIZE,
         light_scale: LIGHT,
         floor: true,
         rectangles: 30,
-        regions,
+        unions,
         ..RenderSpec::default()
     };
     let mut renderer = Renderer::new(Arc::clone(scene), spec, RunSpec::default()).unwrap();
@@ -53,14 +53,14 @@ impl Random {
         ((lo + (hi - lo) * x) * 1e3).round() / 1e3
     }
 
-    /// A ball, an ellipsoid, a box or a torus somewhere around the origin; negative inside.
+    /// A ball, an ellipsoid, a rounded box or a torus somewhere around the origin; negative inside.
     fn solid(&mut self) -> String {
         let [x, y, z] = ["x", "y", "z"].map(|axis| format!("({axis} - ({}))", self.number(-1.2, 1.2)));
         let r = self.number(0.3, 0.8);
         match self.number(0.0, 4.0) as u32 {
             0 => format!("({x}^2 + {y}^2 + {z}^2 - {r}^2)"),
             1 => format!("({x}^2 + 3 {y}^2 + {z}^2/2 - {r}^2)"),
-            2 => format!("max(max(abs({x}), abs({y})), abs({z}) * 2) - {r}"),
+            2 => format!("({x}^4 + {y}^4 + 2 {z}^4 - {r}^4)"),
             _ => format!("(({x}^2 + {y}^2 + {z}^2 + {r}^2 - 0.02)^2 - 4 * {r}^2 * ({x}^2 + {y}^2))"),
         }
     }
@@ -103,4 +103,24 @@ fn from_inside_a_union_stays_whole() {
     let ((a, _), (b, _)) = (frame(&scene, true), frame(&scene, false));
     let (a, b) = (a.planes().unwrap(), b.planes().unwrap());
     assert!(a.iter().zip(b.iter()).all(|(a, b)| format!("{a:?}") == format!("{b:?}")));
+}
+
+/// Hits are on parts, for whatever method: a state remembers.
+#[test]
+fn a_union_goes_on_with_another_method_where_it_was_stopped() {
+    let scene = Arc::new(Scene::from_formula("min(x^2 + y^2 + z^2 - 1, (x - 1)^2 + y^2 + z^2 - 1)").unwrap());
+    let spec = RenderSpec { width: SIZE, height: SIZE, floor: true, grid: 8, sub_beams: 2, ..RenderSpec::default() };
+    let paper = Method::from_name("paper").unwrap();
+    let mut renderer = Renderer::new(Arc::clone(&scene), spec.clone(), RunSpec::default()).unwrap();
+    while !renderer.refine(Duration::from_secs(60)) {}
+    renderer.restart_shadows(paper);
+    let mut state = vec![];
+    renderer.save(&mut state).unwrap();
+    let spec = RenderSpec { method: paper, ..spec };
+    let mut second = Renderer::resume(scene, spec, RunSpec::default(), &mut std::io::Cursor::new(state)).unwrap();
+    for renderer in [&mut renderer, &mut second] {
+        while !renderer.refine(Duration::from_secs(60)) {}
+    }
+    let planes = |r: &Renderer| format!("{:?}", r.frame().planes().unwrap().iter().collect::<Vec<_>>());
+    assert!(planes(&renderer) == planes(&second));
 }

@@ -88,7 +88,6 @@ fn rows_that_were_damaged_are_found() {
     let again = |budget: &str| {
         bench.antumbra(&arguments("p.png", "planes", &[&more[..], &["--resume", "--budget", budget]].concat())).assert()
     };
-    // Until some rows are finished.
     let rows = bench.file("p.png.bands/picture-8");
     for _ in 0..500 {
         if fs::metadata(&rows).is_ok_and(|m| m.len() > 0) {
@@ -98,7 +97,7 @@ fn rows_that_were_damaged_are_found() {
     }
     let mut bytes = fs::read(&rows).expect("rows were finished");
     assert!(!bench.file("p.png").exists(), "it is not finished");
-    bytes[40] ^= 1;
+    bytes[140] ^= 1;
     fs::write(&rows, bytes).unwrap();
     again("100")
         .code(1)
@@ -107,6 +106,69 @@ fn rows_that_were_damaged_are_found() {
         .stderr(contains("leave out --resume"));
     assert!(!bench.file("p.png").exists());
     bench.antumbra(&arguments("p.png", "planes", &more)).assert().success();
+}
+
+/// Until some rows of a picture in bands are finished.
+fn begun(bench: &Bench, scene: &str) -> Vec<u8> {
+    let rows = bench.file("p.png.bands/picture-8");
+    for _ in 0..500 {
+        let args = ["render", scene, "--size", "96x256", "--threads", "1", "-o", "p.png", "--memory", "1"];
+        let _ =
+            bench.antumbra(&[&args[..], &["--save-every", "0.001", "--resume", "--budget", "0.1"]].concat()).assert();
+        if fs::metadata(&rows).is_ok_and(|m| m.len() > 0) {
+            break;
+        }
+    }
+    assert!(!bench.file("p.png").exists(), "it is not finished");
+    fs::read(&rows).expect("rows were finished")
+}
+
+#[test]
+fn rows_of_another_picture_are_not_taken() {
+    let bench = Bench::new();
+    let of_links = begun(&bench, "links");
+    let state = fs::read(bench.file("p.png.state")).unwrap();
+    // Another render of that name that ends before it has rows leaves them alone.
+    let other = ["render", "chubs", "--size", "96x256", "-o", "p.png", "--memory", "1"];
+    bench.antumbra(&[&other[..], &["--budget", "0.000001"]].concat()).assert().code(1);
+    assert_eq!(fs::read(bench.file("p.png.bands/picture-8")).unwrap(), of_links);
+    // One that has rows, with the first one's state put back: they are not its own.
+    fs::remove_file(bench.file("p.png.state")).unwrap();
+    begun_anew(&bench);
+    fs::write(bench.file("p.png.state"), state).unwrap();
+    let args = ["render", "links", "--size", "96x256", "--threads", "1", "-o", "p.png", "--memory", "1", "--resume"];
+    bench.antumbra(&args).assert().code(1).stderr(contains("are not of this picture")).stderr(contains("--resume"));
+    assert!(!bench.file("p.png").exists());
+}
+
+/// Rows of another picture in the place of those that are there.
+fn begun_anew(bench: &Bench) {
+    fs::remove_dir_all(bench.file("p.png.bands")).unwrap();
+    begun(bench, "gyroid");
+}
+
+#[test]
+fn what_is_not_ours_is_left_alone() {
+    let bench = Bench::new();
+    let render = || bench.antumbra(&["render", "sphere", "--size", "96x256", "-o", "p.png", "--memory", "1"]).assert();
+    fs::create_dir(bench.file("p.png.bands")).unwrap();
+    fs::write(bench.file("p.png.bands/picture-8"), "my pictures").unwrap();
+    render().code(1).stderr(contains("something else is in it"));
+    assert_eq!(fs::read(bench.file("p.png.bands/picture-8")).unwrap(), b"my pictures");
+    fs::remove_file(bench.file("p.png.bands/picture-8")).unwrap();
+    #[cfg(unix)]
+    {
+        fs::write(bench.file("precious"), "").unwrap();
+        std::os::unix::fs::symlink(bench.file("precious"), bench.file("p.png.bands/picture-8")).unwrap();
+        render().code(1).stderr(contains("no plain file"));
+        fs::remove_file(bench.file("p.png.bands/picture-8")).unwrap();
+    }
+    fs::write(bench.file("p.png.bands/notes"), "mine").unwrap();
+    render().success();
+    assert_eq!(fs::read(bench.file("p.png.bands/notes")).unwrap(), b"mine");
+    fs::remove_dir_all(bench.file("p.png.bands")).unwrap();
+    fs::write(bench.file("p.png.bands"), "a file").unwrap();
+    render().code(1).stderr(contains("p.png.bands"));
 }
 
 #[test]

@@ -29,6 +29,8 @@ use std::time::Duration;
 pub struct Renderer {
     pub(super) task: Task,
     spec: RenderSpec,
+    /// Whether hits are on parts of unions. Once they are, they are so for every method.
+    divided: bool,
     crew: Crew,
     clock: Clock,
     grids: Vec<Grid>,
@@ -83,16 +85,21 @@ impl Renderer {
     /// # Errors
     /// As for [`Renderer::new`].
     pub fn in_bands(scene: Arc<Scene>, spec: RenderSpec, run: RunSpec, rows: usize) -> Result<Self, Error> {
+        let divided = spec.unions && spec.method == Method::Certified;
+        Self::begin(scene, spec, run, rows, divided)
+    }
+
+    fn begin(scene: Arc<Scene>, spec: RenderSpec, run: RunSpec, rows: usize, divided: bool) -> Result<Self, Error> {
         spec.validate()?;
         let window = Window::first(spec.height, rows);
         let frame = Frame::new(spec.width, window.held().len(), scene.lights.len())?;
         let crew = run.crew()?;
-        let task = Task::new(scene, &spec, window)?;
+        let task = Task::new(scene, &spec, window, divided)?;
         let book = Book::new(frame, &spec, crew.size());
         let (stage, stop) = (Stage::Grid, Arc::default());
         let spare = Spare::default();
         let (grids, clock, part) = (Vec::new(), std_clock, Part::WHOLE);
-        Ok(Self { task, spec, crew, clock, grids, book, given: None, stage, part, next_tile: 0, stop, spare })
+        Ok(Self { task, spec, divided, crew, clock, grids, book, given: None, stage, part, next_tile: 0, stop, spare })
     }
 
     /// Writes everything that is known, so that [`Renderer::resume`] can go on with it: some 50 to 300 bytes for each
@@ -103,7 +110,8 @@ impl Renderer {
     pub fn save(&self, out: &mut dyn Write) -> Result<(), StateError> {
         let (task, book) = (&self.task, &self.book);
         let window = task.window.clone();
-        let how_far = Stopped { stage: self.stage, part: self.part, tiles: self.next_tile, window, book };
+        let divided = self.divided;
+        let how_far = Stopped { stage: self.stage, part: self.part, tiles: self.next_tile, window, divided, book };
         state::write(&task.scene, &self.spec, &how_far, out)
     }
 
@@ -122,9 +130,9 @@ impl Renderer {
         input: &mut (impl Read + Seek),
     ) -> Result<Self, StateError> {
         spec.validate()?;
-        let Stopped { stage, part, tiles, window, book } = state::read(&scene, &spec, input)?;
+        let Stopped { stage, part, tiles, window, divided, book } = state::read(&scene, &spec, input)?;
         // It has planes of its own.
-        let mut renderer = Self::in_bands(scene, spec, run, 1)?;
+        let mut renderer = Self::begin(scene, spec, run, 1, divided)?;
         let threads = renderer.crew.size();
         (renderer.part, renderer.stage, renderer.task.window) = (part, stage, window);
         if part.number >= part.of || tiles > renderer.turns() {
@@ -158,8 +166,9 @@ impl Renderer {
     /// # Errors
     /// Those of [`Renderer::resume`]; [`StateError::Part`] where this part or that one is not done, or tiles are there already.
     pub fn join(&mut self, input: &mut (impl Read + Seek)) -> Result<(), StateError> {
-        let Stopped { stage, book, .. } = state::read(&self.task.scene, &self.spec, input)?;
-        if [self.stage, stage] != [Stage::Parted; 2] || !self.book.join(book) {
+        let Stopped { stage, window, divided, book, .. } = state::read(&self.task.scene, &self.spec, input)?;
+        let same = window.is_whole() && divided == self.divided;
+        if [self.stage, stage] != [Stage::Parted; 2] || !same || !self.book.join(book) {
             return Err(StateError::Part);
         }
         if self.book.is_whole() {

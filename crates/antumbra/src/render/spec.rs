@@ -76,9 +76,11 @@ pub struct RenderSpec {
     pub rectangles: u32,
     /// Certified: how penumbrae are resolved.
     pub penumbra: Penumbra,
-    /// Whether long formulas are shortened region by region ([`crate::eval::Regions`]) and, by the certified method, unions are drawn as
-    /// their parts. All claims hold with and without; the bits may differ.
+    /// Whether long formulas are shortened region by region ([`crate::eval::Regions`]). All claims hold with and without; the
+    /// bits may differ.
     pub regions: bool,
+    /// Certified: whether unions are drawn as their parts, where that is proved to be the same. The bits may differ.
+    pub unions: bool,
 }
 
 impl RenderSpec {
@@ -103,6 +105,7 @@ impl Default for RenderSpec {
             rectangles: 4000,
             penumbra: Penumbra::default(),
             regions: true,
+            unions: true,
         }
     }
 }

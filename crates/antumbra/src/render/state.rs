@@ -136,6 +136,7 @@ pub(super) struct Stopped<B = Book> {
     pub(super) part: Part,
     pub(super) tiles: usize,
     pub(super) window: Window,
+    pub(super) divided: bool,
     pub(super) book: B,
 }
 

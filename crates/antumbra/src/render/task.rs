@@ -60,9 +60,11 @@ pub(super) struct Task {
 const FAR: f64 = 100.0;
 
 impl Task {
+    /// With unions as their parts, if they are to be `divided`.
+    ///
     /// # Errors
     /// Where the scene's floor has no height.
-    pub(super) fn new(scene: Arc<Scene>, spec: &RenderSpec, window: Window) -> Result<Self, Error> {
+    pub(super) fn new(scene: Arc<Scene>, spec: &RenderSpec, window: Window, divided: bool) -> Result<Self, Error> {
         let (width, height) = (spec.width, spec.height);
         let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
         let mut objects = scene.objects.clone();
@@ -73,7 +75,7 @@ impl Task {
         } else {
             None
         };
-        if spec.regions && spec.method == Method::Certified {
+        if divided {
             let parts = |object: Object| object.parts(film.camera.eye).unwrap_or_else(|| vec![object]);
             objects = objects.into_iter().flat_map(parts).collect();
         }

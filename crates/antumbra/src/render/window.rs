@@ -50,7 +50,11 @@ impl Window {
     pub(super) fn holds(&self, height: usize) -> bool {
         let Self { height: own, step, held, fresh, open } = self;
         let end = |rows: usize| rows == height || rows.is_multiple_of(BLOCK);
-        let one = step.is_multiple_of(BLOCK) && *step > 0 && end(held.end) && held.end <= height && fresh < &held.end;
+        let one = step.is_multiple_of(BLOCK)
+            && (1..=height.next_multiple_of(BLOCK)).contains(step)
+            && end(held.end)
+            && held.end <= height
+            && fresh < &held.end;
         let start = fresh.saturating_sub(Self::SHARED * BLOCK);
         let seen = if *fresh == 0 { 0 } else { fresh.saturating_sub(BLOCK) };
         *own == height && one && fresh.is_multiple_of(BLOCK) && held.start == start && *open == seen

@@ -1,9 +1,9 @@
 //! Surfaces of unions, as the surfaces of their parts.
 use super::Object;
 use crate::eval::{Inclusion, Workspace};
-use crate::expr::Binary;
+use crate::expr::{Binary, Unary};
 use crate::geom::{Clip, Vec3};
-use crate::tape::Tape;
+use crate::tape::{Op, Tape};
 use std::sync::Arc;
 
 /// More parts than these stay together.
@@ -26,12 +26,15 @@ impl Object {
     /// A segment from there to a light is free if f > 0 on it, that is if all `f_i > 0`; a part of it with f < 0 has some `f_i < 0`. With
     /// f >= 0, f and some `f_i` vanish together. And between the borders all `f_i > 0`, so for the parts as well the clip cuts
     /// nothing away.
+    ///
+    /// Only smooth parts are taken apart (without choices of their own). Faces of boxes often lie in one plane: two parts that vanish together along
+    /// a face would leave open which one is met, where their minimum is a plain hit.
     #[must_use]
     pub(crate) fn parts(&self, eye: Vec3) -> Option<Vec<Self>> {
         let tape = self.surface.as_tape().filter(|tape| tape.is_continuous_everywhere())?;
         let (Clip::Box(clip), Clip::Box(region)) = (self.clip(), self.region()) else { return None };
         let beyond = |k: usize| region[k].lo() < clip[k].lo() && clip[k].hi() < region[k].hi();
-        if !(0..3).all(beyond) {
+        if !(0..3).all(|k| beyond(k) && region[k].lo().is_finite()) {
             return None;
         }
         let mut work = Workspace::default();
@@ -47,10 +50,9 @@ impl Object {
         if inside_clip && positive(eye) != Some(outside) {
             return None;
         }
-        let terms = tape.terms(if outside { Binary::Min } else { Binary::Max }, MOST);
-        let together: usize = terms.iter().map(|term| term.clauses().len()).sum();
         // What parts have in common is done for each of them.
-        if terms.len() < 2 || together > 2 * tape.clauses().len() {
+        let terms = tape.terms(if outside { Binary::Min } else { Binary::Max }, MOST, 2 * tape.clauses().len())?;
+        if terms.len() < 2 || !terms.iter().all(smooth) {
             return None;
         }
         let part = |term: Tape| {
@@ -60,6 +62,14 @@ impl Object {
         };
         Some(terms.into_iter().map(part).collect())
     }
+}
+
+/// Whether no operation chooses.
+fn smooth(tape: &Tape) -> bool {
+    let chooses = |op: Op| {
+        matches!(op, Op::Binary(Binary::Min | Binary::Max) | Op::Unary(Unary::Abs | Unary::Sign | Unary::Floor))
+    };
+    !tape.clauses().iter().any(|clause| chooses(clause.op))
 }
 
 #[cfg(test)]
@@ -81,6 +91,11 @@ mod tests {
         // Turned inside out it is a maximum.
         assert_eq!(parts(&format!("-({THREE})"), FAR), Some(3));
         assert_eq!(parts("max(1 - x^2 - y^2 - z^2, 1/2 - (x - 1)^2 - y^2 - z^2)", FAR), Some(2));
+        // A ball that is there twice, hidden from the rules of the language, is one part.
+        let ball = "(x^2 + y^2 + z^2 - 1)";
+        let other = "((x - 1)^2 + y^2 + z^2 - 1)";
+        let twice = format!("min(min({ball}, {other}), min({ball}, (y - 1)^2 + x^2 + z^2 - 1))");
+        assert_eq!(parts(&twice, FAR), Some(3));
         // Between two balls, inside of the clip.
         let apart = "min((x - 2)^2 + y^2 + z^2 - 1, (x + 2)^2 + y^2 + z^2 - 1)";
         assert_eq!(parts(apart, Vec3::default()), Some(2));
@@ -88,6 +103,9 @@ mod tests {
 
     #[test]
     fn what_is_not_proved_stays_together() {
+        // Faces in one plane.
+        let boxes = "min(max(max(abs(x), abs(y)), abs(z)) - 1, max(max(abs(x - 1), abs(y)), abs(z)) - 1)";
+        assert_eq!(parts(boxes, FAR), None);
         // From inside of one ball the wall of the other would be seen.
         assert_eq!(parts(THREE, Vec3([0.1, 0.2, 0.3])), None);
         // An intersection, and no union at all.

@@ -57,14 +57,21 @@ impl Tape {
 
     /// The functions of which this one is the minimum, or whatever operation is asked for, by its outermost operations: itself, if it is none.
     /// Where they would be more than `most`, some of them stay together. Each keeps the flag of continuity, which is one of all operations.
+    /// Equal ones come once. `None` where they have more than `longest` operations together.
     ///
     /// Cost: the length of the tape for each of them.
-    pub(crate) fn terms(&self, op: Binary, most: usize) -> Vec<Self> {
-        let (mut stack, mut terms) = (vec![self.clone()], Vec::new());
+    pub(crate) fn terms(&self, op: Binary, most: usize, longest: usize) -> Option<Vec<Self>> {
+        let (mut stack, mut terms): (_, Vec<Self>) = (vec![self.clone()], Vec::new());
         while let Some(tape) = stack.pop() {
+            if terms.iter().map(|term| term.clauses.len()).sum::<usize>() > longest {
+                return None;
+            }
             let is_one = tape.clauses.last().is_some_and(|clause| clause.op == Op::Binary(op));
             if !is_one || stack.len() + terms.len() + 2 > most {
-                terms.push(tape);
+                let same = |term: &Self| term.clauses == tape.clauses && term.constants == tape.constants;
+                if !terms.iter().any(same) {
+                    terms.push(tape);
+                }
                 continue;
             }
             let mut fates = vec![Fate::Keep; tape.clauses.len()];
@@ -75,7 +82,7 @@ impl Tape {
                 stack.push(tape.rewritten(&fates));
             }
         }
-        terms
+        Some(terms)
     }
 
     /// The steps that the last one depends on, with the constants that they name.
