@@ -62,15 +62,17 @@ impl Tape {
     /// Cost: the length of the tape for each of them.
     pub(crate) fn terms(&self, op: Binary, most: usize, longest: usize) -> Option<Vec<Self>> {
         let (mut stack, mut terms): (_, Vec<Self>) = (vec![self.clone()], Vec::new());
+        let mut together = 0;
         while let Some(tape) = stack.pop() {
-            if terms.iter().map(|term| term.clauses.len()).sum::<usize>() > longest {
-                return None;
-            }
             let is_one = tape.clauses.last().is_some_and(|clause| clause.op == Op::Binary(op));
             if !is_one || stack.len() + terms.len() + 2 > most {
                 let same = |term: &Self| term.clauses == tape.clauses && term.constants == tape.constants;
                 if !terms.iter().any(same) {
+                    together += tape.clauses.len();
                     terms.push(tape);
+                }
+                if together > longest {
+                    return None;
                 }
                 continue;
             }
