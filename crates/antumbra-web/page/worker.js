@@ -150,37 +150,49 @@ async function openGpu(software) {
   }
 }
 
-/** Lets the GPU prove what it can of the picture that was opened; tells whether it did. Some reason is told where it did not. */
+/**
+ * Lets the GPU prove what it can of the picture that was opened; tells whether it did, and why where it did not. For its probe and its
+ * kernels nobody waits longer than the processor would take for all of it: they go on meanwhile, and the next picture has them.
+ */
 async function consult(id, forecast, wanted) {
+  const began = performance.now();
   const say = (told) => postMessage({ type: "gpu", id, ...told });
-  const gone = () => next !== null;
+  const any = wanted === "any";
+  let working = any;
+  const late = () => !working && performance.now() - began >= forecast;
+  const gone = () => next !== null || late();
   const woken = (resolve) => (wake = resolve);
+  const timer = any ? 0 : setTimeout(() => wake(), forecast + 1);
   say({ state: "opening" });
-  gpu ??= openGpu(wanted === "any");
+  gpu ??= openGpu(any);
   let trusted = null;
   gpu.then((answer) => {
     trusted = answer;
     wake();
   });
   while (!trusted && !gone()) await new Promise(woken);
-  if (gone()) return false;
-  const { machine, name, cases, message } = trusted;
+  const { machine, name, cases, message } = trusted ?? { message: "the GPU is still being asked" };
   const stays = (reason) => {
-    say({ state: "processor", name, cases, message: reason });
+    clearTimeout(timer);
+    if (!next) say({ state: "processor", name, cases, message: reason });
     return false;
   };
-  if (!machine) return stays(message);
-  if (wanted !== "any" && forecast < GPU_FROM) return stays("a picture as light as this is left to the processor");
+  if (!machine || next) return stays(message);
+  if (!any && forecast < GPU_FROM) return stays("a picture as light as this one is left to it");
   const refusal = engine.gpuBegin();
   if (refusal) return stays(refusal);
-  const told = ({ progress }) => say({ state: "waits", name, cases, progress });
+  const told = ({ progress }) => {
+    working ||= progress > 0;
+    say({ state: "waits", name, cases, progress });
+  };
   const step = await decide(engine, machine, { gone, woken, told });
   if (!step) {
     engine.gpuLeave();
-    return false;
+    return stays("kernels for this formula are still being compiled");
   }
   if (machine.lost && (losses += 1) < LOSSES) gpu = null;
   if (step.state !== "proved") return stays(step.message);
+  clearTimeout(timer);
   say({ name, cases, ...step });
   return true;
 }

@@ -39,8 +39,8 @@ enum State {
     Idle,
     /// For an answer.
     Waits { progress: f64 },
-    /// Its arithmetic is what proofs need.
-    Passed { cases: usize, rewritten: usize },
+    /// Its arithmetic is what proofs need, in so many cases; in so many of them it is not without the fence ([`probe::BARE`]).
+    Passed { cases: usize, rewritten: [usize; 6] },
     /// The renderer has what was proved.
     Proved { pixels: usize, settled: usize, brackets: usize, narrow: usize, seconds: f64 },
     /// The processor does all of it.
@@ -92,7 +92,7 @@ impl Gpu {
                 Poll::Ready(Err(error)) => failed(error),
                 Poll::Ready(Ok(report)) => {
                     self.trusted = true;
-                    State::Passed { cases: report.cases, rewritten: report.rewritten.iter().sum() }
+                    State::Passed { cases: report.cases, rewritten: report.rewritten }
                 }
             },
             Some(Task::Prove { work, done, begin }) => match work.as_mut().poll(&mut context) {

@@ -39,7 +39,7 @@ pub enum Order {
         /// Its number.
         id: u32,
         /// All of its WGSL.
-        text: Rc<str>,
+        text: String,
         /// The function to run.
         entry: String,
         /// Values of `override`s.
@@ -114,7 +114,7 @@ struct Desk {
     /// Numbers that were given, to things and to answers.
     given: Cell<u32>,
     /// What was compiled, by its text, entry point and constants.
-    pipelines: RefCell<HashMap<(Rc<str>, String), Rc<Thing>>>,
+    pipelines: RefCell<HashMap<(String, String), Rc<Thing>>>,
 }
 
 /// Something that the holder keeps until this is dropped.
@@ -223,7 +223,7 @@ impl Machine for Remote {
     }
 
     fn pipeline(&self, text: &str, entry: &str, constants: &[(&str, f64)]) -> Result<Rc<Thing>, Error> {
-        let key = (Rc::from(text), format!("{entry} {constants:?}"));
+        let key = (text.to_owned(), format!("{entry} {constants:?}"));
         let kept = self.0.pipelines.borrow().get(&key).cloned();
         if let Some(pipeline) = kept {
             return Ok(pipeline);
@@ -233,8 +233,8 @@ impl Machine for Remote {
         }
         let pipeline = Rc::new(self.thing(0));
         let constants = constants.iter().map(|(name, value)| ((*name).to_owned(), *value)).collect();
-        let text = Rc::clone(&key.0);
-        self.order(Order::Pipeline { id: pipeline.id, text, entry: entry.to_owned(), constants });
+        let (text, entry) = (text.to_owned(), entry.to_owned());
+        self.order(Order::Pipeline { id: pipeline.id, text, entry, constants });
         self.0.pipelines.borrow_mut().insert(key, Rc::clone(&pipeline));
         Ok(pipeline)
     }
