@@ -1,4 +1,4 @@
-// What the page costs, in numbers: node crates/antumbra-web/tests/measure.js [SIZE]. Needs what page.test.js needs.
+// What the page costs, in numbers: node crates/antumbra-web/tests/measure.js [SIZE [ROUNDS]]. Needs what page.test.js needs.
 //
 // For each scene: milliseconds from a turn of the camera (a press of a key) to the first picture and to the whole proof, with one worker
 // and with two; the whole proof with WebGPU and without, of the same picture in turns, by one worker and a GPU that the processor plays;
@@ -16,7 +16,7 @@ const program = process.env.ANTUMBRA ?? join(root, "target/release/antumbra");
 const folder = process.env.PAGE ?? join(root, "target/web");
 const size = Number(process.argv[2] ?? 512);
 const SCENES = ["orthocircle", "chubs", "kusner", "mcmullen"];
-const ROUNDS = 5;
+const ROUNDS = Number(process.argv[3] ?? 5);
 
 const median = (list) => [...list].sort((a, b) => a - b)[list.length >> 1];
 const wasm = readFileSync(join(folder, "antumbra.wasm"));
