@@ -22,7 +22,7 @@ export class Machine {
     if (!navigator.gpu) throw new Error("this browser has no WebGPU");
     const adapter = await navigator.gpu.requestAdapter({ powerPreference: "high-performance" });
     if (!adapter) throw new Error("this browser offers no adapter");
-    const { vendor, architecture, device, description, isFallbackAdapter } = adapter.info;
+    const { vendor, architecture, device, description, isFallbackAdapter } = adapter.info ?? {};
     const name = description || [vendor, architecture, device].filter(Boolean).join(" ") || "an adapter without a name";
     const played = Boolean(isFallbackAdapter ?? adapter.isFallbackAdapter) || SOFTWARE.test(name);
     if (played && !software) throw new Error(`${name} is a processor that plays the GPU`);

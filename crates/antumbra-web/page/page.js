@@ -123,7 +123,7 @@ function onGpu({ state: what, name, cases, message, progress, ...share }) {
   };
   $("#gpu-says").textContent = says[what]();
   if (what !== "waits") return;
-  $("#status").textContent = "Proving on the GPU …";
+  $("#status").textContent = progress > 0 ? "Proving on the GPU …" : "Compiling kernels for the GPU …";
   const bar = $("#progress");
   bar.value = progress;
   bar.classList.remove("done");

@@ -163,13 +163,14 @@ async function consult(id, forecast, wanted) {
   const gone = () => next !== null || late();
   const woken = (resolve) => (wake = resolve);
   const timer = any ? 0 : setTimeout(() => wake(), forecast + 1);
-  say({ state: "opening" });
   gpu ??= openGpu(any);
   let trusted = null;
   gpu.then((answer) => {
     trusted = answer;
     wake();
   });
+  await breathe();
+  if (!trusted) say({ state: "opening" });
   while (!trusted && !gone()) await new Promise(woken);
   const { machine, name, cases, message } = trusted ?? { message: "the GPU is still being asked" };
   const stays = (reason) => {
@@ -241,18 +242,21 @@ async function draw({ id, request, overlay, thumbnail, workers, share, gpu: want
   if (next) return;
 
   const forecast = (performance.now() - opened) * ((request.width * request.height) / (width * height)) ** GROWTH;
+  const whole = () => ({ id, overlay: shown.overlay, fine: true, part: 0, tolerance: request.tolerance });
   let helped = false;
   if (wanted !== "off") {
     postMessage({ type: "phase", id, phase: "fine" });
     open(request);
+    shown = whole();
     helped = await consult(id, forecast, wanted);
     if (next) return;
   }
   // What a GPU leaves is not worth sharing.
   const shared = !helped && workers > 1 && (share || forecast > SHARE_FROM);
   postMessage({ type: "phase", id, phase: "fine", shared });
-  if (!helped) open(shared ? { ...request, part: [0, workers] } : request);
-  shown = { id, overlay: shown.overlay, fine: true, part: 0, tolerance: request.tolerance };
+  if (shared) open({ ...request, part: [0, workers] });
+  else if (wanted === "off") open(request);
+  shown = whole();
   await finish(!shared);
   if (!shared) return;
   for (let missing = workers - 1; missing > 0 && !next; missing -= 1) {

@@ -213,6 +213,17 @@ withGpu("what is not allowed is noticed before an answer is believed", async () 
   await isTheProcessors("sphere", 64);
 });
 
+withGpu("nobody waits longer for a compiler than for the processor", async () => {
+  const address = await broken(
+    "slow",
+    ["if (played && !software)", "if (false)"],
+    ["const pipeline = this.#device", 'const pipeline = entry !== "probe" ? new Promise(() => {}) : this.#device'],
+  );
+  await visit(address, "#scene=chubs&size=384", "");
+  assert.match(await says(), /passed the probe of 16384 cases\. The processor does it: kernels for this formula are still being compiled/);
+  await isTheProcessors("chubs", 384);
+});
+
 withGpu("another picture does not wait for what it proves", async (t) => {
   await page.goto("about:blank");
   await page.goto(`${server.address}?gpu=any#scene=kusner&size=512`);

@@ -52,13 +52,14 @@ try {
 const second = await browse({}, WEBGPU);
 try {
   const { page } = second;
-  console.log(`\n| ${size} x ${size}, by one worker | GPU's part, ms | the heart's rest, ms | proof with WebGPU, ms | without, ms | of that the heart's, ms | GPU |\n|---|---|---|---|---|---|---|`);
+  console.log(`\n| ${size} x ${size}, by one worker | GPU's part, ms | the heart's rest, ms | proof with WebGPU, ms | without, ms | of that the heart's, ms | its evaluations, millions | GPU |\n|---|---|---|---|---|---|---|---|`);
   for (const scene of SCENES) {
     await page.goto("about:blank");
     await page.goto(`${server.address}?workers=1&gpu=any#scene=${scene}&size=${size}`);
     // The first time kernels are compiled.
     await finished(page, 600_000);
     const [parts, rests, withIt, without, alone] = [[], [], [], [], []];
+    const evaluations = [0, 0];
     for (let round = 0; round < ROUNDS; round += 1) {
       for (const checked of [false, true]) {
         await page.evaluate(() => (window.antumbra.log.done = false));
@@ -67,11 +68,12 @@ try {
         const { asked, finished: end, gpu, report } = await page.evaluate(() => window.antumbra.log);
         (checked ? withIt : without).push(end - asked);
         (checked ? rests : alone).push(1e3 * report.seconds);
+        evaluations[checked ? 0 : 1] = (report.evaluations / 1e6).toFixed(2);
         if (checked) parts.push(gpu?.state === "proved" ? 1e3 * gpu.seconds : NaN);
       }
     }
     const says = await page.locator("#gpu-says").textContent();
-    console.log(`| ${scene} | ${[parts, rests, withIt, without, alone].map((list) => median(list).toFixed(0)).join(" | ")} | ${says} |`);
+    console.log(`| ${scene} | ${[parts, rests, withIt, without, alone].map((list) => median(list).toFixed(0)).join(" | ")} | ${evaluations.join(" / ")} | ${says} |`);
   }
 } finally {
   await second.close();
