@@ -20,7 +20,7 @@ pub trait Machine {
     type Buffer;
     /// A compiled kernel.
     type Pipeline;
-    /// Buffers in the places that a kernel names.
+    /// Buffers in the places that a kernel names; they live as long as it does.
     type Binding;
 
     /// The adapter's name.

@@ -45,6 +45,36 @@ export class Engine {
     return this.#json(this.#exports.open());
   }
 
+  /** Takes a GPU, of which `about` tells what the heart asks: the probe is then to be decided. */
+  gpuOpen(about) {
+    this.#write(JSON.stringify(about));
+    const refusal = this.#decoder.decode(this.#bytes(this.#exports.gpu_open()));
+    if (refusal) throw new Error(refusal);
+  }
+
+  /** Begins to prove on the GPU what it can of the picture: to be decided. Else why the processor does all of it. */
+  gpuBegin() {
+    return this.#decoder.decode(this.#bytes(this.#exports.gpu_begin()));
+  }
+
+  /** Where that stands, and the orders to be carried out next. */
+  gpuStep() {
+    return this.#json(this.#exports.gpu_step());
+  }
+
+  /** What the order with that ticket answered: bytes, or an error. */
+  gpuAnswer(ticket, answer) {
+    const failed = answer instanceof Error;
+    if (failed) this.#write(answer.message);
+    else this.#writeBytes(answer);
+    this.#exports.gpu_answer(ticket, failed ? 1 : 0);
+  }
+
+  /** Nobody wants to know any more what the GPU proves. */
+  gpuLeave() {
+    this.#exports.gpu_leave();
+  }
+
   /** Works for about that time; tells whether the picture is finished. */
   refine(milliseconds) {
     return this.#exports.refine(milliseconds) === 1;

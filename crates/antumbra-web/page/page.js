@@ -21,6 +21,8 @@ let state = fromHash(location.hash);
 /** For measurements: `?workers=2` in the address makes so many share every picture. */
 const wanted = Math.floor(Number(new URLSearchParams(location.search).get("workers"))) || 0;
 const workers = wanted > 0 ? Math.min(wanted, MOST) : null;
+/** The same for the GPU: `?gpu=any` takes one that a processor plays, for any picture; `?gpu=off` none. */
+const gpuWanted = new URLSearchParams(location.search).get("gpu");
 /** The scene as the heart describes it: its own camera, light, parameters. */
 let scene = null;
 /** Formulas by the names of the gallery. */
@@ -31,7 +33,7 @@ let coarse = null;
 /** What is there of the whole picture, and who said what of it. */
 let whole = null;
 /** For whoever measures or tests: what was drawn last, and when. */
-const log = { asked: 0, first: 0, side: 0, finished: 0, done: false, report: null, drawn: 0, refused: null };
+const log = { asked: 0, first: 0, side: 0, finished: 0, done: false, report: null, drawn: 0, refused: null, gpu: null };
 window.antumbra = { log, state: () => structuredClone(state) };
 
 const camera = () => state.camera ?? scene?.camera;
@@ -51,6 +53,7 @@ function draw() {
     if (state.camera) request.camera = state.camera;
     if (state.light) request.light = state.light;
     if (state.floor !== null) request.floor = state.floor;
+    painter.gpu = $("#gpu").checked ? (gpuWanted === "any" ? "any" : "auto") : "off";
     painter.draw(request, overlay);
     history.replaceState(null, "", toHash(state));
   });
@@ -58,7 +61,7 @@ function draw() {
 
 function change(changes) {
   state = { ...state, ...changes };
-  Object.assign(log, { asked: performance.now(), first: 0, finished: 0, done: false, refused: null });
+  Object.assign(log, { asked: performance.now(), first: 0, finished: 0, done: false, refused: null, gpu: null });
   // What was said of a pixel was said of the picture before.
   $("#pixel").textContent = "";
   draw();
@@ -104,6 +107,26 @@ function onPicture({ id, fine, part, joined, done, tolerance, pixels, report, le
   if (log.done) log.finished = performance.now();
   tell(fine, done, fine ? together(whole.reports) : report, tolerance);
   if (!fine || part === 0) showLegend(legend);
+}
+
+/** What the GPU does, or why it does nothing. */
+function onGpu({ state: what, name, cases, message, progress, ...share }) {
+  log.gpu = { state: what, name, message, ...share };
+  const trusted = name ? `${name} passed the probe of ${cases} cases` : "";
+  const says = {
+    opening: () => "Asking for a GPU that can be trusted …",
+    waits: () => `${trusted} and is proving`,
+    processor: () => `${trusted ? `${trusted}. ` : ""}The processor does it: ${message}`,
+    proved: () =>
+      `${trusted} and proved ${percent(share.settled, share.pixels)} of the pixels, ` +
+      `${percent(share.narrow, share.brackets)} of their light in ${share.seconds.toFixed(1)} s`,
+  };
+  $("#gpu-says").textContent = says[what]();
+  if (what !== "waits") return;
+  $("#status").textContent = progress > 0 ? "Proving on the GPU …" : "Compiling kernels for the GPU …";
+  const bar = $("#progress");
+  bar.value = progress;
+  bar.classList.remove("done");
 }
 
 /** What several workers report of their parts, as one report. */
@@ -376,6 +399,12 @@ for (const input of document.querySelectorAll("[name=overlay]")) {
   });
 }
 
+$("#gpu").checked = gpuWanted !== "off";
+$("#gpu").addEventListener("change", () => {
+  $("#gpu-says").textContent = "";
+  change({});
+});
+
 function showParameters(parameters) {
   const section = $("#parameters");
   section.hidden = parameters.length === 0;
@@ -451,7 +480,7 @@ showProof();
 try {
   const module = await compile("antumbra.wasm");
   $("#wait").textContent = "Drawing …";
-  const handlers = { picture: onPicture, scene: onScene, refused: onRefused, failed: onFailed, pixel: onPixel, png: onPng };
+  const handlers = { picture: onPicture, scene: onScene, refused: onRefused, failed: onFailed, pixel: onPixel, png: onPng, gpu: onGpu };
   handlers.gallery = ({ gallery: exhibits }) => {
     for (const { name, formula } of exhibits) names.set(name, formula);
     gallery = new Gallery(module, exhibits, choose);

@@ -95,6 +95,8 @@ export class Painter {
   #lateness = 0;
   #handlers;
   #share;
+  /** "auto", "any" (also one that a processor plays) or "off". */
+  gpu = "off";
 
   /**
    * `module` is the compiled heart; `handlers` are functions by the type of a worker's message. `share` is for measurements: all workers
@@ -148,7 +150,7 @@ export class Painter {
   draw(request, overlay, thumbnail = 0) {
     const most = request.width * request.height > LARGE.pixels ? LARGE.most : MOST;
     const workers = Math.min(most, this.#helpers.length + 1);
-    const message = { type: "draw", id: ++this.#id, request, overlay, thumbnail, workers, share: this.#share };
+    const message = { type: "draw", id: ++this.#id, request, overlay, thumbnail, workers, share: this.#share, gpu: this.gpu };
     this.#now = message;
     clearTimeout(this.#impatience);
     const patience = PATIENCE[this.#phase];

@@ -1,6 +1,7 @@
 // Draws off the page's thread: first a coarse picture at once, then the whole, until the next request comes. Several workers share a
 // whole picture: each proves its part of the tiles, and the first one joins them and does the rest.
 import { Engine } from "./engine.js";
+import { Machine, decide } from "./gpu.js";
 
 /** A coarse picture should take about so many milliseconds; it has as many pixels as that allows. */
 const COARSE_TIME = 120;
@@ -12,6 +13,10 @@ const COARSE_PROOF = { tolerance: 1 / 16, rectangles: 16 };
 const PATIENCE = 1000;
 /** A picture that will take so many milliseconds is shared with other workers: to join a part takes a quarter of a second. */
 const SHARE_FROM = 4000;
+/** A picture that will take fewer milliseconds is not worth compiling kernels. */
+const GPU_FROM = 500;
+/** Devices that are lost before no other one is asked for. */
+const LOSSES = 3;
 /** How much longer a picture of n times as many pixels takes: n to this power, for the paper's surfaces. */
 const GROWTH = 0.6;
 /** Work between two looks at the messages, and time between two pictures. */
@@ -25,6 +30,9 @@ let shown = { id: 0, overlay: "", fine: false };
 /** Parts that others have done of what is drawn, and who waits for one. */
 let parts = [];
 let wake = () => {};
+/** The GPU, when it has passed the probe: a promise of `{ machine }`, or of `{ message }` that says why not. */
+let gpu = null;
+let losses = 0;
 /** Milliseconds per pixel of the last coarse picture. */
 let pace = 0.03;
 
@@ -129,8 +137,71 @@ async function finish(whole) {
   }
 }
 
-async function draw({ id, request, overlay, thumbnail, workers, share }) {
+/** Asks for the GPU, and the heart whether it can be trusted. */
+async function openGpu(software) {
+  try {
+    const machine = await Machine.open(software);
+    const { name } = machine.about;
+    engine.gpuOpen(machine.about);
+    const { state, cases, message } = await decide(engine, machine);
+    return state === "passed" ? { machine, name, cases } : { message };
+  } catch (error) {
+    return { message: error.message };
+  }
+}
+
+/**
+ * Lets the GPU prove what it can of the picture that was opened; tells whether it did, and why where it did not. For its probe and its
+ * kernels nobody waits longer than the processor would take for all of it: they go on meanwhile, and the next picture has them.
+ */
+async function consult(id, forecast, wanted) {
   const began = performance.now();
+  const say = (told) => postMessage({ type: "gpu", id, ...told });
+  const any = wanted === "any";
+  let working = any;
+  const late = () => !working && performance.now() - began >= forecast;
+  const gone = () => next !== null || late();
+  const woken = (resolve) => (wake = resolve);
+  const timer = any ? 0 : setTimeout(() => wake(), forecast + 1);
+  gpu ??= openGpu(any);
+  let trusted = null;
+  gpu.then((answer) => {
+    trusted = answer;
+    wake();
+  });
+  await breathe();
+  if (!trusted) say({ state: "opening" });
+  while (!trusted && !gone()) await new Promise(woken);
+  const { machine, name, cases, message } = trusted ?? { message: "the GPU is still being asked" };
+  const stays = (reason) => {
+    clearTimeout(timer);
+    if (!next) say({ state: "processor", name, cases, message: reason });
+    return false;
+  };
+  if (!machine || next) return stays(message);
+  if (!any && forecast < GPU_FROM) return stays("a picture as light as this one is left to it");
+  const refusal = engine.gpuBegin();
+  if (refusal) return stays(refusal);
+  const told = ({ progress }) => {
+    working ||= progress > 0;
+    say({ state: "waits", name, cases, progress });
+  };
+  const step = await decide(engine, machine, { gone, woken, told });
+  if (!step) {
+    engine.gpuLeave();
+    return stays("kernels for this formula are still being compiled");
+  }
+  if (machine.lost && (losses += 1) < LOSSES) gpu = null;
+  if (step.state !== "proved") return stays(step.message);
+  clearTimeout(timer);
+  say({ name, cases, ...step });
+  return true;
+}
+
+async function draw({ id, request, overlay, thumbnail, workers, share, gpu: wanted }) {
+  const began = performance.now();
+  // It is probed while the coarse picture is drawn.
+  if (wanted !== "off") gpu ??= openGpu(wanted === "any");
   parts = [];
   postMessage({ type: "phase", id, phase: "coarse" });
   const before = shown;
@@ -171,10 +242,21 @@ async function draw({ id, request, overlay, thumbnail, workers, share }) {
   if (next) return;
 
   const forecast = (performance.now() - opened) * ((request.width * request.height) / (width * height)) ** GROWTH;
-  const shared = workers > 1 && (share || forecast > SHARE_FROM);
+  const whole = () => ({ id, overlay: shown.overlay, fine: true, part: 0, tolerance: request.tolerance });
+  let helped = false;
+  if (wanted !== "off") {
+    postMessage({ type: "phase", id, phase: "fine" });
+    open(request);
+    shown = whole();
+    helped = await consult(id, forecast, wanted);
+    if (next) return;
+  }
+  // What a GPU leaves is not worth sharing.
+  const shared = !helped && workers > 1 && (share || forecast > SHARE_FROM);
   postMessage({ type: "phase", id, phase: "fine", shared });
-  open(shared ? { ...request, part: [0, workers] } : request);
-  shown = { id, overlay: shown.overlay, fine: true, part: 0, tolerance: request.tolerance };
+  if (shared) open({ ...request, part: [0, workers] });
+  else if (wanted === "off") open(request);
+  shown = whole();
   await finish(!shared);
   if (!shared) return;
   for (let missing = workers - 1; missing > 0 && !next; missing -= 1) {

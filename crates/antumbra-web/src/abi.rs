@@ -89,6 +89,37 @@ extern "C" fn open() -> *const u8 {
     leave(STUDIO.with_borrow_mut(|studio| studio.open(&text())))
 }
 
+/// [`Studio::gpu_open`] of the input.
+#[unsafe(no_mangle)]
+extern "C" fn gpu_open() -> *const u8 {
+    leave(STUDIO.with_borrow_mut(|studio| studio.gpu_open(&text())))
+}
+
+/// [`Studio::gpu_begin`].
+#[unsafe(no_mangle)]
+extern "C" fn gpu_begin() -> *const u8 {
+    leave(STUDIO.with_borrow_mut(Studio::gpu_begin))
+}
+
+/// [`Studio::gpu_step`].
+#[unsafe(no_mangle)]
+extern "C" fn gpu_step() -> *const u8 {
+    leave(STUDIO.with_borrow_mut(Studio::gpu_step))
+}
+
+/// [`Studio::gpu_answer`] for a ticket: the bytes in the input, or the text there that says what failed.
+#[unsafe(no_mangle)]
+extern "C" fn gpu_answer(ticket: u32, failed: u32) {
+    let answer = if failed == 0 { Ok(INPUT.take()) } else { Err(text()) };
+    STUDIO.with_borrow_mut(|studio| studio.gpu_answer(ticket, answer));
+}
+
+/// [`Studio::gpu_leave`].
+#[unsafe(no_mangle)]
+extern "C" fn gpu_leave() {
+    STUDIO.with_borrow_mut(Studio::gpu_leave);
+}
+
 /// [`Studio::refine`] for so many milliseconds; 1 where it is finished.
 #[unsafe(no_mangle)]
 extern "C" fn refine(milliseconds: u32) -> u32 {

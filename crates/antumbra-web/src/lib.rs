@@ -7,8 +7,11 @@
 #[cfg(target_family = "wasm")]
 mod abi;
 mod answer;
+mod gpu;
+mod remote;
 mod request;
 mod studio;
 
+pub use remote::{About, Order};
 pub use request::{CameraRequest, LightRequest, Request};
 pub use studio::Studio;

@@ -1,5 +1,6 @@
 //! One scene, one render.
 use crate::answer::{CameraOf, Description, Exhibit, LightOf, Line, Pixel, Refusal, Report, Slider};
+use crate::gpu::Gpu;
 use crate::request::{CameraRequest, LightRequest, Request};
 use antumbra::expr::{Formula, definitions};
 use antumbra::geom::{Film, Rect, Vec3};
@@ -9,8 +10,8 @@ use antumbra::scene::{GALLERY, PRESETS, Parameter, Scene, SceneFile, View, file_
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::io::Cursor;
-use std::sync::Arc;
-use std::time::Duration;
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
 
 /// Most pixels of a picture: what a page can show and a phone's memory holds.
 const MOST_PIXELS: usize = 1 << 23;
@@ -23,6 +24,7 @@ pub struct Studio {
     /// Nothing is left to do, as far as the last look at it told.
     finished: bool,
     clock: Option<Clock>,
+    gpu: Option<Gpu>,
 }
 
 /// A scene as its file has it: what takes long, kept while only camera, light and size change.
@@ -34,6 +36,12 @@ struct Built {
 }
 
 type Answer<T> = Result<T, Refusal>;
+
+/// The clock of std, since the first look at it.
+fn std_clock() -> Duration {
+    static BEGIN: OnceLock<Instant> = OnceLock::new();
+    BEGIN.get_or_init(Instant::now).elapsed()
+}
 
 impl Studio {
     /// A studio that measures time by that clock.
@@ -115,6 +123,7 @@ impl Studio {
         }
         // The memory of the last picture first: from here on only a lack of it can be in the way.
         self.renderer = None;
+        self.gpu_leave();
         let mut renderer = Renderer::new(Arc::new(scene), spec, RunSpec::default()).map_err(refuse)?;
         if let Some(clock) = self.clock {
             renderer.set_clock(clock);
@@ -124,6 +133,42 @@ impl Studio {
         }
         (self.renderer, self.finished) = (Some(renderer), false);
         Ok(description)
+    }
+
+    /// Takes a GPU that whoever calls holds: [`About`](crate::About) it, as JSON. It is probed first. An empty text, or what is wrong with that text.
+    pub fn gpu_open(&mut self, about: &str) -> String {
+        let clock = self.clock.unwrap_or(std_clock);
+        match serde_json::from_str(about) {
+            Ok(about) => self.gpu = Some(Gpu::open(about, clock)),
+            Err(error) => return error.to_string(),
+        }
+        String::new()
+    }
+
+    /// Lets the GPU begin to prove what it can of the picture, which has not begun; an empty text, or why the processor does all of it.
+    pub fn gpu_begin(&mut self) -> String {
+        let (Some(gpu), Some(renderer)) = (&mut self.gpu, &self.renderer) else { return "there is none".to_owned() };
+        gpu.begin(renderer).err().map(|e| e.to_string()).unwrap_or_default()
+    }
+
+    /// Goes on with the probe or the proofs as far as answers allow: `{state, orders}`, the [`Order`](crate::Order)s to be carried out
+    /// next. The state is `waits` (with the `progress`), then `passed`, `proved` or `failed` (with a `message`).
+    pub fn gpu_step(&mut self) -> String {
+        json(&self.gpu.as_mut().map(|gpu| gpu.step(self.renderer.as_mut())))
+    }
+
+    /// Brings what the order with that ticket answered, when it and all before it were done without an error; or why there is no answer.
+    pub fn gpu_answer(&mut self, ticket: u32, answer: Result<Vec<u8>, String>) {
+        if let Some(gpu) = &self.gpu {
+            gpu.answer(ticket, answer);
+        }
+    }
+
+    /// Nobody wants any more what the GPU is proving.
+    pub fn gpu_leave(&mut self) {
+        if let Some(gpu) = &mut self.gpu {
+            gpu.leave();
+        }
     }
 
     /// Goes on with the picture for about that time; tells whether it, or the part of it, is finished, or there is none.

@@ -26,13 +26,16 @@ export async function serve(program, folder) {
   return { address, close: () => server.kill() };
 }
 
+/** Flags of a Chromium whose GPU is played by the processor (SwiftShader), where it has WebGPU at all. */
+export const WEBGPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"];
+
 /** Chromium with an empty profile; `options` are playwright's for the context. */
-export async function browse(options = {}) {
+export async function browse(options = {}, flags = []) {
   const profile = mkdtempSync(join(tmpdir(), "antumbra-browser-"));
   const executablePath = process.env.CHROMIUM ?? "/usr/bin/chromium";
   const context = await chromium.launchPersistentContext(profile, {
     executablePath,
-    args: FLAGS,
+    args: [...FLAGS, ...flags],
     viewport: { width: 1280, height: 860 },
     ...options,
   });

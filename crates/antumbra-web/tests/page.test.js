@@ -281,7 +281,7 @@ test("everything has a name, and nobody complained", async () => {
     slider: ["Around", "Height", "Size", "Tolerance", "Pixels"],
     radio: ["Picture", "Verdict", "Shadow", "Cost", "Bracket"],
     textbox: ["Formula"],
-    checkbox: ["Floor"],
+    checkbox: ["Floor", "GPU, if it can be trusted"],
     progressbar: ["Share of the picture that is done"],
   })) {
     for (const name of names) assert.equal(await page.getByRole(role, { name, exact: true }).count(), 1, `${role} ${name}`);

@@ -260,7 +260,7 @@ fn part_of(hit: Hit, column: u32, row: u32, first: u32, last: u32) -> Seen {
 fn again(index: u32, column: u32, row: u32, seen: Seen) {
     let at = atomicAdd(&more.count, 1u);
     if at < arrayLength(&more.items) {
-        more.items[at] = Part(index, row << 16u | column, seen.shares.first, seen.shares.last, seen.lit, seen.dark, 0u, 0u);
+        more.items[at] = Part(index, (row << 16u) | column, seen.shares.first, seen.shares.last, seen.lit, seen.dark, 0u, 0u);
     }
 }
 
@@ -314,7 +314,7 @@ fn refine(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_ind
     }
     quarters[local] = vec2<u32>(0u);
     let column = 2u * (item.place & 0xffffu) + (local & 1u);
-    let row = 2u * (item.place >> 16u) + (local >> 1u & 1u);
+    let row = 2u * (item.place >> 16u) + ((local >> 1u) & 1u);
     var seen = Seen(Shares(0.0, 0.0, 0u, 0u), 0u, 0u, 0.0);
     if wide {
         seen = part_of(hit_of(item.index), column, row, item.first, item.last);

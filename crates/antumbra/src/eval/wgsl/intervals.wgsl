@@ -42,7 +42,7 @@ fn i_point_power(m: f32, n: u32) -> vec2<f32> {
     var p = vec2<f32>(m, m);
     for (var bit = firstLeadingBit(n); bit > 0u; bit--) {
         p = vec2<f32>(max(down(p.x * p.x), 0.0), up(p.y * p.y));
-        if (n >> (bit - 1u) & 1u) == 1u { p = vec2<f32>(max(down(p.x * m), 0.0), up(p.y * m)); }
+        if ((n >> (bit - 1u)) & 1u) == 1u { p = vec2<f32>(max(down(p.x * m), 0.0), up(p.y * m)); }
     }
     return p;
 }
