@@ -20,12 +20,14 @@ mod pace;
 #[cfg(feature = "native")]
 mod paper;
 pub mod probe;
+mod receipt;
 mod scene;
 #[cfg(all(test, feature = "native"))]
 mod tests;
 #[cfg(feature = "native")]
 mod throughput;
-#[cfg(all(test, feature = "native"))]
+mod trace;
+#[cfg(test)]
 mod twin;
 
 #[cfg(feature = "native")]
@@ -41,3 +43,4 @@ pub use machine::{Machine, Usage};
 pub use paper::{Found, Paper};
 #[cfg(feature = "native")]
 pub use throughput::{Throughput, throughput};
+pub use trace::trace;

@@ -24,6 +24,9 @@ pub(crate) struct Frame {
     pub(crate) half_unit: f32,
     pub(crate) units: u32,
     pub(crate) base: u32,
+    pub(crate) ticket: u32,
+    pub(crate) series: u32,
+    pub(crate) pad: [u32; 2],
     pub(crate) eye: [f32; 4],
     pub(crate) eye_e: [f32; 4],
     pub(crate) forward: [f32; 4],
@@ -153,6 +156,9 @@ pub(crate) fn frame(surfaces: &[Surface<'_>], film: &Film) -> Result<(Frame, Vec
         half_unit: 0.5 / UNITS as f32,
         units: UNITS,
         base: 0,
+        ticket: 0,
+        series: 0,
+        pad: [0; 2],
         eye: round(camera.eye),
         eye_e: errors(|k| U * (camera.eye[k] - eye[k]).abs() + 1e-15 * camera.eye[k].abs()),
         forward: round(coarse(camera.forward)),
@@ -175,6 +181,11 @@ impl Frame {
     /// Multiples of this are the parameters of camera rays.
     pub(crate) fn quantum(&self) -> f64 {
         2.0 * f64::from(self.half_quantum)
+    }
+
+    /// Rows of the bands that it is drawn in, whole tiles of 8 x 8 pixels: of at most so many pixels, if that makes 8 rows.
+    pub(crate) fn band(&self, pixels: u32) -> u32 {
+        (pixels / self.width / 8 * 8).max(8).min(self.height)
     }
 
     /// The same picture under that light.
@@ -217,7 +228,12 @@ pub(crate) fn functions(
     if surfaces.is_empty() || surfaces.len() > MOST {
         return Err(Error::Scene("a scene on the GPU has 1 to 8 surfaces"));
     }
-    let reach = magnitudes(frame, film, lights);
+    let mut reach = magnitudes(frame, film, lights);
+    if kinds.contains(&Kind::Interval) {
+        // Cells of a grid fill the clip, wherever the camera looks.
+        let clips = surfaces.iter().map(|s| s.clip.bounds());
+        clips.for_each(|clip| (0..3).for_each(|k| reach[k] = reach[k].max(2.0 * clip[k].magnitude())));
+    }
     // Where a formula does not use an axis nothing else asks; far places have no 32-bit numbers around them.
     if !reach.iter().all(|m| *m < f64::from(FAR) / 4.0) {
         return Err(Error::Scene("coordinates as large as these are not for 32-bit numbers"));
