@@ -28,8 +28,8 @@ pub(super) fn prepare(device: Device, method: Method, renderer: &mut Renderer, q
         say(format!("the GPU draws `certified`, `paper` and `fixed49`; the processor does `{name}`"));
         return Ok(());
     }
-    if renderer.has_begun() {
-        say("the processor goes on with what was begun".to_owned());
+    if !renderer.takes() {
+        say("the processor does it alone: the picture was begun, or is drawn in bands".to_owned());
         return Ok(());
     }
     // A processor that plays the GPU is taken only where somebody insists.

@@ -299,6 +299,6 @@ fn the_processor_goes_on_with_what_it_began_whatever_the_device() {
         let args = ["render", "chubs", "--size", "96", "--threads", "1", "--method", method];
         bench.antumbra(&[&args[..], &["--budget", "0.000001"]].concat()).assert().failure().stderr(contains("budget"));
         let resumed = bench.antumbra(&[&args[..], &["--resume", "--device", "gpu"]].concat()).assert().success();
-        resumed.stderr(contains("the processor goes on with what was begun"));
+        resumed.stderr(contains("the processor does it alone: the picture was begun"));
     }
 }
