@@ -327,11 +327,6 @@ impl Gpu {
         self.read_part(buffer, buffer.size())
     }
 
-    /// Its first number.
-    pub(crate) fn read_first(&self, buffer: &Buffer) -> Result<u32, Error> {
-        Ok(self.read_part(buffer, 16)?[0])
-    }
-
     fn read_part<T: bytemuck::Pod>(&self, buffer: &Buffer, size: u64) -> Result<Vec<T>, Error> {
         let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let descriptor = wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false };

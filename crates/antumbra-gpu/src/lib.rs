@@ -16,6 +16,8 @@ mod error;
 #[cfg(all(test, feature = "native"))]
 mod faults;
 mod machine;
+#[cfg(all(test, feature = "native"))]
+mod negligence;
 mod pace;
 #[cfg(feature = "native")]
 mod paper;
@@ -26,8 +28,9 @@ mod scene;
 mod tests;
 #[cfg(feature = "native")]
 mod throughput;
+#[cfg(feature = "native")]
 mod trace;
-#[cfg(test)]
+#[cfg(all(test, feature = "native"))]
 mod twin;
 
 #[cfg(feature = "native")]
@@ -39,8 +42,8 @@ pub use compare::{Comparison, compare};
 pub use device::{Adapter, Gpu, adapters};
 pub use error::Error;
 pub use machine::{Machine, Usage};
-#[cfg(feature = "native")]
 pub use paper::{Found, Paper};
 #[cfg(feature = "native")]
 pub use throughput::{Throughput, throughput};
+#[cfg(feature = "native")]
 pub use trace::trace;

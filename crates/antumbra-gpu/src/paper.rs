@@ -1,7 +1,10 @@
 //! The paper's method on the GPU: grid, beam casting, initial shadow beams, sub-beams.
-use crate::device::{Error, Gpu, Pass};
+#[cfg(feature = "native")]
+use crate::device::{self, Gpu};
+use crate::error::Error;
+use crate::machine::{Machine, Usage};
 use crate::pace::Pace;
-use crate::receipt::{Receipts, tickets};
+use crate::receipt::{Receipts, seal, tickets};
 use crate::scene::{self, Frame, Region};
 use antumbra::eval::wgsl::{FORMS, INTERVALS, Kind, outward};
 use antumbra::geom::Rect;
@@ -10,8 +13,6 @@ use antumbra::render::{Method, Question, Traced, TracedLight, TracedPixel};
 use antumbra_interval::Interval;
 use bytemuck::{Pod, Zeroable};
 use std::sync::atomic::{AtomicBool, Ordering};
-use std::time::Instant;
-use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline};
 
 /// What the paper's method finds of a picture.
 #[derive(Clone, Debug)]
@@ -32,12 +33,13 @@ struct Constants {
     far: f32,
     width: f32,
     offset: f32,
-    pad: [u32; 2],
+    seal: u32,
+    pad: u32,
 }
 
 /// The paper's method for one picture, compiled.
-pub struct Paper {
-    kernels: [ComputePipeline; STAGES],
+pub struct Paper<M: Machine> {
+    kernels: [M::Pipeline; STAGES],
     paces: [Pace; STAGES],
     frame: Frame,
     regions: Vec<Region>,
@@ -46,6 +48,10 @@ pub struct Paper {
     /// Cells of all surfaces.
     cells: u32,
     constants: Constants,
+    /// What the seals of all these make together.
+    seal: u32,
+    /// Most pixels of a band, if it has more rows than the 8 of a tile.
+    pub(crate) band: u32,
 }
 
 const STAGES: usize = 4;
@@ -56,10 +62,10 @@ const INITIAL: usize = 2;
 const SUB_BEAMS: usize = 3;
 /// What each of them binds.
 const USED: [&[u32]; STAGES] =
-    [&[0, 2, 3, 4, 9], &[0, 2, 3, 4, 5, 9], &[0, 2, 3, 4, 5, 6, 7, 9], &[0, 2, 3, 4, 5, 6, 7, 9]];
+    [&[0, 1, 2, 3, 4, 9], &[0, 1, 2, 3, 4, 5, 9], &[0, 1, 2, 3, 4, 5, 6, 7, 9], &[0, 1, 2, 3, 4, 5, 6, 7, 9]];
 /// Threads of a group.
 const GROUP: u32 = 64;
-/// Pixels of a band, at most, if it has more rows than the 8 of a tile: 40 bytes each, and what is read back.
+/// Pixels of a band: 40 bytes each, and what is read back.
 const BAND: u32 = 1 << 20;
 /// Most cells of all grids: 2^31 bits.
 const CELLS: usize = 1 << 31;
@@ -67,13 +73,13 @@ const CELLS: usize = 1 << 31;
 const HEAD: u64 = 8;
 const ITEM: u64 = 8;
 
-impl Paper {
+impl<M: Machine> Paper<M> {
     /// Compiles it for a picture.
     ///
     /// # Errors
     /// Why the picture stays on the CPU: another method than [`paper::Method::Initial`] and [`paper::Method::Fixed`], a floor, a formula without
     /// kernels, a grid that is too fine.
-    pub fn new(gpu: &Gpu, question: &Question<'_>) -> Result<Self, Error> {
+    pub fn new(gpu: &M, question: &Question<'_>) -> Result<Self, Error> {
         let Question { surfaces, film, lights, settings, .. } = question;
         let always = match question.method {
             Method::Paper(paper::Method::Initial) => false,
@@ -87,7 +93,7 @@ impl Paper {
         let cells = n.checked_pow(3).and_then(|cube| cube.checked_mul(surfaces.len())).filter(|cells| *cells < CELLS);
         let cells = cells.filter(|cells| *cells > 0).and_then(|cells| u32::try_from(cells).ok());
         let cells = cells.ok_or(Error::Scene("a grid has cells, and on the GPU less than 2^31"))?;
-        let (frame, regions) = scene::frame(surfaces, film)?;
+        let (frame, mut regions) = scene::frame(surfaces, film)?;
         let kinds = [Kind::Form, Kind::Interval];
         let functions = scene::functions(surfaces, &kinds, &frame, film, lights)?;
         let [common, kernel] = [include_str!("kernels/frame.wgsl"), include_str!("kernels/paper.wgsl")];
@@ -104,6 +110,9 @@ impl Paper {
                 slabs.extend((0..n).map(|k| outward(edge(k).hull(edge(k + 1)))));
             }
         }
+        // A last element, which is no slab.
+        let seals = [scene::seal(&mut regions), seal(), seal()];
+        slabs.push([seals[1] as f32; 2]);
         let constants = Constants {
             cells: n as u32,
             sub_beams: settings.sub_beams as u32,
@@ -111,41 +120,54 @@ impl Paper {
             far: outward(Interval::point(frame.quantum() * f64::from(frame.end)))[1],
             width: settings.bisection.width as f32,
             offset: settings.offset as f32,
-            pad: [0; 2],
+            seal: seals[2],
+            pad: 0,
         };
         let paces = std::array::from_fn(|_| Pace::new(begin));
-        Ok(Self { kernels, paces, frame, regions, lights: lights.clone(), slabs, cells, constants })
+        let seal = seals.iter().sum();
+        Ok(Self { kernels, paces, frame, regions, lights: lights.clone(), slabs, cells, constants, seal, band: BAND })
     }
 
     /// Runs it. `stop` is looked at between dispatches; `progress` hears after each of them which part of the work is done, in `[0, 1]`.
     ///
     /// # Errors
     /// Those of the device.
-    pub fn run(&self, gpu: &Gpu, stop: &AtomicBool, progress: &mut dyn FnMut(f64)) -> Result<Found, Error> {
+    pub async fn run_async(&self, gpu: &M, stop: &AtomicBool, progress: &mut dyn FnMut(f64)) -> Result<Found, Error> {
         let [width, height] = [self.frame.width, self.frame.height];
-        let rows = self.frame.band(BAND);
+        let rows = self.frame.band(self.band);
         let mut run = Run::new(gpu, self, rows * width, stop, progress)?;
-        run.grid()?;
+        run.grid().await?;
         for first in (0..height).step_by(rows as usize) {
-            run.band(first, rows.min(height - first))?;
+            run.band(first, rows.min(height - first)).await?;
         }
         Ok(run.finish())
     }
 }
 
+#[cfg(feature = "native")]
+impl Paper<Gpu> {
+    /// [`run_async`](Self::run_async), where there is nothing else to be done meanwhile.
+    ///
+    /// # Errors
+    /// Those of the device.
+    pub fn run(&self, gpu: &Gpu, stop: &AtomicBool, progress: &mut dyn FnMut(f64)) -> Result<Found, Error> {
+        device::finish(self.run_async(gpu, stop, progress))
+    }
+}
+
 /// The buffers of a band, and what is found so far.
-struct Run<'a> {
-    gpu: &'a Gpu,
-    paper: &'a Paper,
+struct Run<'a, M: Machine> {
+    gpu: &'a M,
+    paper: &'a Paper<M>,
     stop: &'a AtomicBool,
     progress: &'a mut dyn FnMut(f64),
-    frame: Buffer,
-    found: Buffer,
-    shade: Buffer,
-    list: Buffer,
-    receipts: Buffer,
+    frame: M::Buffer,
+    found: M::Buffer,
+    shade: M::Buffer,
+    list: M::Buffer,
+    receipts: M::Buffer,
     handed: Receipts,
-    binds: Vec<BindGroup>,
+    binds: Vec<M::Binding>,
     traced: Traced,
     seconds: Vec<f64>,
     clocked: bool,
@@ -153,23 +175,24 @@ struct Run<'a> {
     done: u64,
 }
 
-impl<'a> Run<'a> {
+impl<'a, M: Machine> Run<'a, M> {
     fn new(
-        gpu: &'a Gpu,
-        paper: &'a Paper,
+        gpu: &'a M,
+        paper: &'a Paper<M>,
         pixels: u32,
         stop: &'a AtomicBool,
         progress: &'a mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         let pixels = u64::from(pixels);
-        let frame = gpu.filled(bytemuck::bytes_of(&paper.frame), BufferUsages::UNIFORM)?;
-        let regions = gpu.filled(bytemuck::cast_slice(&paper.regions), BufferUsages::UNIFORM)?;
-        let constants = gpu.filled(bytemuck::bytes_of(&paper.constants), BufferUsages::UNIFORM)?;
-        let slabs = gpu.filled(bytemuck::cast_slice(&paper.slabs), BufferUsages::STORAGE)?;
-        let marked = gpu.storage(4 * u64::from(paper.cells.div_ceil(32)))?;
-        let [found, shade] = [gpu.storage(16 * pixels)?, gpu.storage(16 * pixels)?];
-        let list = gpu.storage(HEAD + ITEM * pixels)?;
-        let receipts = gpu.storage(4)?;
+        let frame = gpu.filled(bytemuck::bytes_of(&paper.frame), Usage::Uniform)?;
+        let regions = gpu.filled(bytemuck::cast_slice(&paper.regions), Usage::Uniform)?;
+        let constants = gpu.filled(bytemuck::bytes_of(&paper.constants), Usage::Uniform)?;
+        let slabs = gpu.filled(bytemuck::cast_slice(&paper.slabs), Usage::Storage)?;
+        let storage = |bytes: u64| gpu.buffer(bytes.max(16), Usage::Storage);
+        let marked = storage(4 * u64::from(paper.cells.div_ceil(32)))?;
+        let [found, shade] = [storage(16 * pixels)?, storage(16 * pixels)?];
+        let list = storage(HEAD + ITEM * pixels)?;
+        let receipts = storage(4)?;
         let all = [
             (0, &frame),
             (1, &regions),
@@ -208,7 +231,7 @@ impl<'a> Run<'a> {
 
     /// Runs a stage for `count` items, in dispatches of its pace: a group does `each` of them, or an item takes `threads` of several groups. `pixels` of
     /// work are then done.
-    fn stage(&mut self, stage: usize, frame: Frame, items: Items, pixels: u64) -> Result<(), Error> {
+    async fn stage(&mut self, stage: usize, frame: Frame, items: Items, pixels: u64) -> Result<(), Error> {
         let pace = &self.paper.paces[stage];
         let Items { first: begin, count, threads, group } = items;
         let mut first = 0;
@@ -221,15 +244,15 @@ impl<'a> Run<'a> {
             let part =
                 (u64::from(groups) * u64::from(group) / u64::from(threads)).clamp(1, u64::from(count - first)) as u32;
             let groups = (u64::from(part) * u64::from(threads)).div_ceil(group.into()) as u32;
-            let ticket = self.handed.hand_out(groups);
+            let ticket = self.handed.hand_out(groups, self.paper.seal);
             let frame = Frame { first: begin + first, count: part, ticket, ..frame };
             self.gpu.write(&self.frame, bytemuck::bytes_of(&frame));
-            let now = Instant::now();
+            let now = self.gpu.seconds();
             let pipeline = &self.paper.kernels[stage];
-            let times = self.gpu.run(&[Pass { pipeline, bind: &self.binds[stage], groups: [groups, 1, 1] }])?;
-            pace.took(groups, now.elapsed().as_secs_f64());
-            self.clocked &= !times.is_empty();
-            self.seconds[stage] += times.iter().sum::<f64>();
+            let time = self.gpu.run(pipeline, &self.binds[stage], groups).await?;
+            pace.took(groups, self.gpu.seconds() - now);
+            self.clocked &= time.is_some();
+            self.seconds[stage] += time.unwrap_or(0.0);
             first += part;
             self.tell(pixels * u64::from(first) / u64::from(count));
         }
@@ -245,25 +268,25 @@ impl<'a> Run<'a> {
     }
 
     /// Whether everything was done that should be.
-    fn check(&self) -> Result<(), Error> {
-        if self.handed.is_sum(self.gpu.read_first(&self.receipts)?) { Ok(()) } else { Err(left_out()) }
+    async fn check(&self) -> Result<(), Error> {
+        if self.handed.is_sum(self.gpu.read_first(&self.receipts).await?) { Ok(()) } else { Err(Receipts::missing()) }
     }
 
-    fn grid(&mut self) -> Result<(), Error> {
+    async fn grid(&mut self) -> Result<(), Error> {
         let words = self.paper.cells.div_ceil(32);
-        self.stage(GRID, self.paper.frame, Items { first: 0, count: words, threads: 1, group: GROUP }, 0)
+        self.stage(GRID, self.paper.frame, Items { first: 0, count: words, threads: 1, group: GROUP }, 0).await
     }
 
-    fn band(&mut self, top: u32, rows: u32) -> Result<(), Error> {
+    async fn band(&mut self, top: u32, rows: u32) -> Result<(), Error> {
         let whole = self.paper.frame;
         let pixels = rows * whole.width;
         let work = u64::from(pixels);
         let base = Frame { base: top * whole.width, ..whole };
         let across = whole.width.div_ceil(8);
         let tiles = Items { first: top / 8 * across, count: across * rows.div_ceil(8), threads: 1, group: 1 };
-        self.stage(PIXELS, base, tiles, work)?;
-        let mut found: Vec<[u32; 4]> = self.gpu.read(&self.found)?;
-        self.check()?;
+        self.stage(PIXELS, base, tiles, work).await?;
+        let mut found: Vec<[u32; 4]> = self.gpu.read_all(&self.found).await?;
+        self.check().await?;
         found.truncate(pixels as usize);
         for f in &found {
             self.traced.pixels.push(pixel(f)?);
@@ -271,15 +294,15 @@ impl<'a> Run<'a> {
         for (k, light) in self.paper.lights.iter().enumerate() {
             let frame = Frame { series: tickets(1), ..base.lit_by(light) };
             self.gpu.clear(&[&self.list]);
-            self.stage(INITIAL, frame, Items { first: 0, count: pixels, threads: 1, group: GROUP }, work)?;
-            let count = self.gpu.read_first(&self.list)?;
-            if u64::from(count) > (self.list.size() - HEAD) / ITEM {
-                return Err(left_out());
+            self.stage(INITIAL, frame, Items { first: 0, count: pixels, threads: 1, group: GROUP }, work).await?;
+            let count = self.gpu.read_first(&self.list).await?;
+            if u64::from(count) > (self.gpu.size(&self.list) - HEAD) / ITEM {
+                return Err(Receipts::missing());
             }
             let threads = self.paper.constants.sub_beams.pow(2).max(1);
-            self.stage(SUB_BEAMS, frame, Items { first: 0, count, threads, group: GROUP }, work)?;
-            let shade: Vec<[u32; 4]> = self.gpu.read(&self.shade)?;
-            self.check()?;
+            self.stage(SUB_BEAMS, frame, Items { first: 0, count, threads, group: GROUP }, work).await?;
+            let shade: Vec<[u32; 4]> = self.gpu.read_all(&self.shade).await?;
+            self.check().await?;
             for (s, f) in shade.iter().zip(&found) {
                 self.traced.lights[k].push(if f[0] == NOTHING { TracedLight::default() } else { seen(s, threads)? });
             }
@@ -304,18 +327,14 @@ struct Items {
     group: u32,
 }
 
-fn left_out() -> Error {
-    Error::Failed("a part of the work was not done, and the driver did not tell".to_owned())
-}
-
 const NOTHING: u32 = 255;
 
 fn pixel([what, a, b, evaluations]: &[u32; 4]) -> Result<TracedPixel, Error> {
     let at = |bits: u32| f64::from(f32::from_bits(bits));
     let find = match *what {
         NOTHING => None,
-        0 => return Err(left_out()),
-        surface => Some((surface as usize - 1, Interval::try_new(at(*a), at(*b)).ok_or_else(left_out)?)),
+        0 => return Err(Receipts::missing()),
+        surface => Some((surface as usize - 1, Interval::try_new(at(*a), at(*b)).ok_or_else(Receipts::missing)?)),
     };
     Ok(TracedPixel { find, evaluations: *evaluations })
 }
@@ -327,7 +346,7 @@ fn seen([state, initial, blocked, sub]: &[u32; 4], beams: u32) -> Result<TracedL
         2 => [1, 0],
         3 => [1, beams],
         4 => [0, beams],
-        _ => return Err(left_out()),
+        _ => return Err(Receipts::missing()),
     };
     Ok(TracedLight {
         initial_occluded: state & 0xff == 3,

@@ -177,6 +177,14 @@ pub(crate) fn frame(surfaces: &[Surface<'_>], film: &Film) -> Result<(Frame, Vec
     Ok((frame, surfaces.iter().map(Region::of).collect()))
 }
 
+/// Seals the regions.
+pub(crate) fn seal(regions: &mut [Region]) -> u32 {
+    let seal = crate::receipt::seal();
+    // Whole numbers below 2^24 are exact.
+    regions[0].clip_lo[3] = seal as f32;
+    seal
+}
+
 impl Frame {
     /// Multiples of this are the parameters of camera rays.
     pub(crate) fn quantum(&self) -> f64 {

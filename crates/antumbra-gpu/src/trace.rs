@@ -1,5 +1,6 @@
 //! A renderer that is told what the paper's method has found on the GPU.
-use crate::device::{Error, Gpu};
+use crate::device::Gpu;
+use crate::error::Error;
 use crate::paper::Paper;
 use antumbra::render::Renderer;
 use std::time::Instant;

@@ -41,8 +41,12 @@ struct Region { clip_lo: vec4<f32>, clip_hi: vec4<f32>, whole_lo: vec4<f32>, who
 
 fn runtime_zero() -> u32 { return frame.zero; }
 
-// The sum of the hashes of the tickets of all groups that are done.
-@group(0) @binding(9) var<storage, read_write> receipts: atomic<u32>;
+// What the kernels account for.
+struct Account {
+    receipts: atomic<u32>,      // the sum of the hashes of the tickets of all groups that are done
+    evaluations: atomic<u32>,   // of lights
+}
+@group(0) @binding(9) var<storage, read_write> account: Account;
 
 fn hash(ticket: u32) -> u32 {
     var x = (ticket ^ (ticket >> 16u)) * 0x85ebca6bu;
@@ -50,10 +54,14 @@ fn hash(ticket: u32) -> u32 {
     return x ^ (x >> 16u);
 }
 
-// What a group does last, all its threads together: without it nothing that they have written is believed.
-fn sign_off(group: u32, local: u32) {
+// The seal of the regions, a whole number.
+fn region_seal() -> u32 { return u32(regions[0].clip_lo.w); }
+
+// What a group does last, all its threads together: without it nothing that they have written is believed. `seal` is that of all that they have read
+// and the host has written once.
+fn sign_off(group: u32, local: u32, seal: u32) {
     storageBarrier();
-    if local == 0u { atomicAdd(&receipts, hash(frame.ticket + group)); }
+    if local == 0u { atomicAdd(&account.receipts, hash(frame.ticket + group + seal)); }
 }
 
 struct Point { x: Form, y: Form, z: Form }

@@ -8,10 +8,11 @@ struct Paper {
     far: f32,               // no surface is met beyond this parameter
     width: f32,             // sections narrower than this are not divided
     offset: f32,            // distance at which shadow beams start
-    pad0: u32, pad1: u32,
+    seal: u32,
+    pad: u32,
 }
 @group(0) @binding(2) var<uniform> paper: Paper;
-// Outward bounds of the cells: SURFACES times 3 times `cells`.
+// Outward bounds of the cells: SURFACES times 3 times `cells`; and a seal.
 @group(0) @binding(3) var<storage, read> slabs: array<vec2<f32>>;
 // Per surface and cell, z y x, a bit: whether the surface may cross it.
 @group(0) @binding(4) var<storage, read_write> marked: array<u32>;
@@ -30,6 +31,8 @@ const NEAR = 1u;            // the light is nearer than the offset: nothing lies
 const FREE = 2u;            // the initial beam meets nothing
 const BLOCKED = 3u;         // it may meet something: sub-beams
 const ALWAYS = 4u;          // sub-beams without an initial beam
+
+fn seal() -> u32 { return region_seal() + paper.seal + u32(slabs[arrayLength(&slabs) - 1u].x); }
 
 fn possibly_zero(x: vec2<f32>) -> bool { return !(x.x > 0.0 || x.y < 0.0); }
 
@@ -57,7 +60,7 @@ fn grid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
         }
         marked[word] = bits;
     }
-    sign_off(group.x, local);
+    sign_off(group.x, local, seal());
 }
 
 fn possibly_crossed(number: u32) -> bool { return (marked[number / 32u] >> (number % 32u) & 1u) == 1u; }
@@ -235,7 +238,7 @@ fn pixels(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id) 
         let index = row * frame.width + column;
         found[index - frame.base] = pixel(index);
     }
-    sign_off(tile.x, local);
+    sign_off(tile.x, local, seal());
 }
 
 // The point from which shadow beams start: the middle of the section, on the centre ray. The same one for the initial beam and for sub-beams,
@@ -298,7 +301,7 @@ fn initial(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_in
             if at < arrayLength(&list.items) { list.items[at] = vec2<u32>(index, frame.series); }
         }
     }
-    sign_off(group.x, local);
+    sign_off(group.x, local, seal());
 }
 
 // A thread for each sub-beam of the items of this dispatch.
@@ -317,5 +320,5 @@ fn sub_beams(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_
             if before + evaluations < before { atomicAdd(&shade[4u * item.x], 256u); }
         }
     }
-    sign_off(group.x, local);
+    sign_off(group.x, local, seal());
 }
