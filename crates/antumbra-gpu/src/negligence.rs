@@ -193,7 +193,8 @@ fn nothing_is_claimed_from_stale_memory() {
 
         let honest = trace(&Negligent::new(&gpu, Omit::Nothing), other).unwrap();
         let machine = Negligent::new(&gpu, Omit::Clears);
-        trace(&machine, one).unwrap();
+        // Its own bands are found to fill the list that nobody clears.
+        let _ = trace(&machine, one);
         match trace(&machine, other) {
             Ok(stale) => assert_eq!(stale.traced, honest.traced),
             Err(error) => assert!(error.to_string().contains("did not tell"), "{error}"),
