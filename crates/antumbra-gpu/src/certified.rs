@@ -8,8 +8,8 @@ use crate::error::Error;
 use crate::machine::{Machine, Usage};
 use crate::pace::Pace;
 use crate::receipt::{Receipts, tickets};
-use crate::scene::{self, Frame, Region};
-use antumbra::eval::wgsl::{FORMS, Kind};
+use crate::scene::{self, Frame, Region, Upload};
+use antumbra::eval::wgsl::{Kind, Width};
 use antumbra::geom::{Film, Rect};
 use antumbra::trace::{Sign, Surface};
 use antumbra_interval::Interval;
@@ -62,6 +62,7 @@ pub struct Kernels<M: Machine> {
     lights: Vec<Rect>,
     /// Most pixels of a band, if it has more rows than the 8 of a tile.
     pub(crate) band: u32,
+    width: Width,
 }
 
 struct Stage<P> {
@@ -91,14 +92,20 @@ const BAND: u32 = 1 << 20;
 /// # Errors
 /// Why the scene stays on the CPU.
 pub fn check(surfaces: &[Surface<'_>], film: &Film, lights: &[Rect]) -> Result<(), Error> {
-    text(surfaces, film, lights).map(|_| ())
+    text(surfaces, film, lights, Width::Single).map(|_| ())
 }
 
 /// The numbers of the picture, and the text that all kernels begin with.
-fn text(surfaces: &[Surface<'_>], film: &Film, lights: &[Rect]) -> Result<(Frame, Vec<Region>, String), Error> {
+fn text(
+    surfaces: &[Surface<'_>],
+    film: &Film,
+    lights: &[Rect],
+    width: Width,
+) -> Result<(Frame, Vec<Region>, String), Error> {
     let (frame, regions) = scene::frame(surfaces, film)?;
-    let functions = scene::functions(surfaces, &[Kind::Form, Kind::Slope], &frame, film, lights)?;
-    Ok((frame, regions, format!("{FORMS}\n{}\n{functions}", include_str!("kernels/frame.wgsl"))))
+    let functions = scene::functions(surfaces, width, &[Kind::Form, Kind::Slope], &frame, film, lights)?;
+    let common = width.text(include_str!("kernels/frame.wgsl"));
+    Ok((frame, regions, format!("{}\n{common}\n{}", width.forms(), width.text(&functions))))
 }
 
 impl<M: Machine> Kernels<M> {
@@ -107,9 +114,24 @@ impl<M: Machine> Kernels<M> {
     /// # Errors
     /// Why the scene stays on the CPU.
     pub fn new(gpu: &M, surfaces: &[Surface<'_>], film: &Film, lights: &[Rect], tolerance: f64) -> Result<Self, Error> {
-        let (frame, mut regions, common) = text(surfaces, film, lights)?;
-        let primary = format!("{common}\n{}", include_str!("kernels/primary.wgsl"));
-        let shadow = format!("{common}\n{}", include_str!("kernels/shadow.wgsl"));
+        Self::of_width(gpu, surfaces, film, lights, tolerance, Width::Single)
+    }
+
+    /// The same with numbers of that width.
+    ///
+    /// # Errors
+    /// As for [`Kernels::new`]; what has no kernels in 64 bits.
+    pub fn of_width(
+        gpu: &M,
+        surfaces: &[Surface<'_>],
+        film: &Film,
+        lights: &[Rect],
+        tolerance: f64,
+        width: Width,
+    ) -> Result<Self, Error> {
+        let (frame, mut regions, common) = text(surfaces, film, lights, width)?;
+        let primary = format!("{common}\n{}", width.text(include_str!("kernels/primary.wgsl")));
+        let shadow = format!("{common}\n{}", width.text(include_str!("kernels/shadow.wgsl")));
         let begin = if gpu.is_software() { 64 } else { 4096 };
         let stage = |text: &str, entry: &str, constants: &[(&str, f64)]| -> Result<Stage<M::Pipeline>, Error> {
             Ok(Stage { pipeline: gpu.pipeline(text, entry, constants)?, pace: Pace::new(begin) })
@@ -128,7 +150,7 @@ impl<M: Machine> Kernels<M> {
             divided("refine", 4 * SIDE, 1.0)?,
         ];
         let seal = scene::seal(&mut regions);
-        Ok(Self { stages, frame, regions, seal, lights: lights.to_vec(), band: BAND })
+        Ok(Self { stages, frame, regions, seal, lights: lights.to_vec(), band: BAND, width })
     }
 
     /// Proves what it can. `stop` is looked at between dispatches; `progress` hears after each of them which part of the work is done, in
@@ -193,8 +215,9 @@ impl<'a, M: Machine> Run<'a, M> {
         progress: &'a mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         let pixels = u64::from(pixels);
-        let frame = gpu.filled(bytemuck::bytes_of(&kernels.frame), Usage::Uniform)?;
-        let regions = gpu.filled(bytemuck::cast_slice(&kernels.regions), Usage::Uniform)?;
+        let frame = gpu.filled(&kernels.frame.bytes(kernels.width), Usage::Uniform)?;
+        let regions: Vec<u8> = kernels.regions.iter().flat_map(|r| r.bytes(kernels.width)).collect();
+        let regions = gpu.filled(&regions, Usage::Uniform)?;
         let storage = |bytes: u64| gpu.buffer(bytes, Usage::Storage);
         let found = storage(16 * pixels)?;
         let [sums, before] = [storage(8 * pixels)?, storage(8 * pixels)?];
@@ -256,7 +279,7 @@ impl<'a, M: Machine> Run<'a, M> {
             let count = (part * each).min(frame.count - first * each);
             let ticket = self.handed.hand_out(part, self.kernels.seal);
             let frame = Frame { first: frame.first + first * each, count, ticket, ..frame };
-            self.gpu.write(&self.frame, bytemuck::bytes_of(&frame));
+            self.gpu.write(&self.frame, &frame.bytes(self.kernels.width));
             let begin = self.gpu.seconds();
             let time = self.gpu.run(pipeline, &self.binds[stage], part).await?;
             pace.took(part, self.gpu.seconds() - begin);

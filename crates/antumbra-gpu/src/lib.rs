@@ -9,6 +9,7 @@
 
 mod assist;
 mod certified;
+mod choice;
 mod compare;
 #[cfg(feature = "native")]
 mod device;
@@ -22,10 +23,13 @@ mod pace;
 #[cfg(feature = "native")]
 mod paper;
 pub mod probe;
+mod probe_double;
 mod receipt;
 mod scene;
 #[cfg(all(test, feature = "native"))]
 mod tests;
+#[cfg(all(test, feature = "native"))]
+mod tests_double;
 #[cfg(feature = "native")]
 mod throughput;
 #[cfg(feature = "native")]
@@ -37,6 +41,7 @@ mod twin;
 pub use assist::assist;
 pub use assist::{Share, kernels};
 pub use certified::{Kernels, Pixel, Proved, check};
+pub use choice::{Measured, chosen};
 pub use compare::{Comparison, compare};
 #[cfg(feature = "native")]
 pub use device::{Adapter, Gpu, adapters};

@@ -6,7 +6,7 @@ use crate::machine::{Machine, Usage};
 use crate::pace::Pace;
 use crate::receipt::{Receipts, seal, tickets};
 use crate::scene::{self, Frame, Region};
-use antumbra::eval::wgsl::{FORMS, INTERVALS, Kind, outward};
+use antumbra::eval::wgsl::{FORMS, INTERVALS, Kind, Width, outward};
 use antumbra::geom::Rect;
 use antumbra::paper;
 use antumbra::render::{Method, Question, Traced, TracedLight, TracedPixel};
@@ -95,7 +95,7 @@ impl<M: Machine> Paper<M> {
         let cells = cells.ok_or(Error::Scene("a grid has cells, and on the GPU less than 2^31"))?;
         let (frame, mut regions) = scene::frame(surfaces, film)?;
         let kinds = [Kind::Form, Kind::Interval];
-        let functions = scene::functions(surfaces, &kinds, &frame, film, lights)?;
+        let functions = scene::functions(surfaces, Width::Single, &kinds, &frame, film, lights)?;
         let [common, kernel] = [include_str!("kernels/frame.wgsl"), include_str!("kernels/paper.wgsl")];
         let text = format!("{FORMS}\n{INTERVALS}\n{common}\n{functions}\n{kernel}");
         let pipeline = |entry| gpu.pipeline(&text, entry, &[]);

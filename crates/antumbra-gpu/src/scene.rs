@@ -1,6 +1,6 @@
 //! A scene as kernels see it: formulas as text, numbers rounded outward.
 use crate::error::Error;
-use antumbra::eval::wgsl::{self, FLOOR, Kind, Reach, ball, outward};
+use antumbra::eval::wgsl::{self, FLOOR, Kind, Reach, Width, ball, outward};
 use antumbra::geom::{Clip, Film, Rect, Vec3};
 use antumbra::tape::Tape;
 use antumbra::trace::Surface;
@@ -185,6 +185,44 @@ pub(crate) fn seal(regions: &mut [Region]) -> u32 {
     seal
 }
 
+/// Numbers as a kernel of that width reads them from uniform memory.
+pub(crate) trait Upload: Pod {
+    /// Its words as f64, in the layout that f64 has.
+    fn double(&self) -> Vec<u8>;
+
+    /// Its bytes.
+    fn bytes(&self, width: Width) -> Vec<u8> {
+        match width {
+            Width::Single => bytemuck::bytes_of(self).to_vec(),
+            Width::Double => self.double(),
+        }
+    }
+}
+
+fn widened(words: &[f32]) -> impl Iterator<Item = u8> {
+    words.iter().flat_map(|word| f64::from(*word).to_le_bytes())
+}
+
+impl Upload for Frame {
+    fn double(&self) -> Vec<u8> {
+        let words: &[u32] = bytemuck::cast_slice(bytemuck::bytes_of(self));
+        let whole = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+        let mut out = whole(&words[..8]);
+        out.extend(widened(bytemuck::cast_slice(&words[8..10])));
+        out.extend(whole(&words[10..16]));
+        // Vectors of four f64 begin at multiples of 32.
+        out.resize(out.len().next_multiple_of(32), 0);
+        out.extend(widened(bytemuck::cast_slice(&words[16..])));
+        out
+    }
+}
+
+impl Upload for Region {
+    fn double(&self) -> Vec<u8> {
+        widened(bytemuck::cast_slice(bytemuck::bytes_of(self))).collect()
+    }
+}
+
 impl Frame {
     /// Multiples of this are the parameters of camera rays.
     pub(crate) fn quantum(&self) -> f64 {
@@ -228,6 +266,7 @@ fn magnitudes(frame: &Frame, film: &Film, lights: &[Rect]) -> [f64; 3] {
 /// Why they stay on the CPU.
 pub(crate) fn functions(
     surfaces: &[Surface<'_>],
+    width: Width,
     kinds: &[Kind],
     frame: &Frame,
     film: &Film,
@@ -260,7 +299,7 @@ pub(crate) fn functions(
         let tape: &Tape = surface.function.as_tape().ok_or(wgsl::Refusal::NoFormula)?;
         for (kind, choose) in kinds.iter().zip(&mut choose) {
             let name = format!("{}{k}", name(*kind));
-            text.push_str(&wgsl::function(tape, &name, *kind)?);
+            text.push_str(&wgsl::function_of(tape, &name, *kind, width)?);
             let last = k + 1 == surfaces.len();
             let label = if last { "default".to_owned() } else { format!("case {k}u") };
             writeln!(choose, "        {label}: {{ return {}; }}", call(*kind, &name)).expect("strings take any text");

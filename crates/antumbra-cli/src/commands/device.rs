@@ -1,6 +1,7 @@
 //! `--device`: what of a picture the GPU does.
 
 use antumbra::{
+    eval::wgsl::Width,
     paper,
     render::{Method, Renderer},
 };
@@ -63,8 +64,11 @@ pub(super) fn prepare(device: Device, method: Method, renderer: &mut Renderer, q
 fn told_of_proofs(gpu: &Gpu, share: Share) -> String {
     let percent = |n: usize, of: usize| 100.0 * n as f64 / of.max(1) as f64;
     let [compiled, done] = share.seconds;
+    let bits = if share.width == Width::Double { 64 } else { 32 };
+    let measured = if share.measured.is_some() { " and measuring" } else { "" };
     format!(
-        "{}: {:.1} % of the pixels and {:.1} % of their brackets proved in {:.2} s, after {compiled:.2} s of compiling",
+        "{} ({bits} bits): {:.1} % of the pixels and {:.1} % of their brackets proved in {:.2} s, after {compiled:.2} s of \
+         compiling{measured}",
         gpu.name(),
         percent(share.settled, share.pixels),
         percent(share.narrow, share.brackets),

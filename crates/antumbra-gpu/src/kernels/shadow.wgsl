@@ -80,14 +80,14 @@ fn half_plane(k: f32, a: f32, b: f32) -> f32 {
     var q = min(abs(a), abs(b));
     var c = sub(k, mul(8.0 * U, add(abs(k), add(p, q))));
     let s = add(p, q);
-    if c <= -s || p < 1e-25 { return select(0.0, 1.0, c > mul(s, 1.0 + 8.0 * U)); }
+    if c <= -s || p < 1e-25 { return select(f32(0.0), f32(1.0), c > mul(s, 1.0 + 8.0 * U)); }
     if c >= mul(s, 1.0 + 8.0 * U) { return 1.0; }
     if q < p * 1e-5 {
         // A thin triangle counts as missing.
         c = sub(c, mul(q, 1.0 + 8.0 * U));
         q = 0.0;
     }
-    var share = 0.0;
+    var share: f32 = 0.0;
     if abs(c) <= sub(p, q) {
         share = 0.5 + 0.5 * (c / p);
     } else if c < 0.0 {
@@ -115,7 +115,7 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
     var begin: array<f32, STRIPS + 1u>;
     var end: array<f32, STRIPS + 1u>;
     for (var i = 0u; i <= STRIPS; i++) { begin[i] = -1.0; end[i] = 1.0; }
-    var hidden = 0.0;
+    var hidden: f32 = 0.0;
     var swap = false;
     var open = 0u;
     var evaluations = 0u;
@@ -211,7 +211,7 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
     if open == 0u { return Shares(1.0, 0.0, 0u, 0u); }
     if !planes { return Shares(0.0, 0.0, first, last); }
     // Lit points on two lines span a lit trapezoid: the lit part is convex.
-    var area = 0.0;
+    var area: f32 = 0.0;
     for (var i = 0u; i < STRIPS; i++) {
         let x = end[i] - begin[i];
         let y = end[i + 1u] - begin[i + 1u];
@@ -262,7 +262,7 @@ const NOTHING = Seen(Shares(0.0, 0.0, 0u, 0u), 0u, 0u, 0.0);
 
 fn part_of(hit: Hit, column: u32, row: u32, first: u32, last: u32) -> Seen {
     // 1 / n by its bits, for n is a power of two: quotients need not be exact.
-    let h = bitcast<f32>((127u - firstTrailingBit(SIDE)) << 23u);
+    let h = half_power(firstTrailingBit(SIDE));
     let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
     let shares = look(hit, m, vec2<f32>(h), ASPECT, true, first, last);
     // The integer part is rounded down; f32(unit) is exact.
