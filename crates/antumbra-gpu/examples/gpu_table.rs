@@ -1,6 +1,6 @@
 //! What a GPU takes for the four scenes of the paper: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats [WxH... [side of the paper's pictures, 0 for none]]]`.
 //! With `--despite` it goes on where the probe fails, for diagnosis. Prints what the probe says, contradictions against the CPU, and milliseconds by the clock of the GPU, medians.
-use antumbra::eval::wgsl;
+use antumbra::eval::wgsl::{self, Width};
 use antumbra::geom::{Film, Rect};
 use antumbra::paper;
 use antumbra::render::{Method, RenderSpec, Renderer, RunSpec, Traced};
@@ -16,6 +16,8 @@ const SCENES: [&str; 4] = ["orthocircle", "chubs", "mcmullen", "kusner"];
 const TOLERANCE: f64 = 1.0 / 255.0;
 /// Side of the pictures that are compared with the CPU's.
 const COMPARED: usize = 96;
+/// Side of the pictures in 32 and 64 bits.
+const WIDE: usize = 128;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -82,6 +84,7 @@ fn main() {
         );
         c.contradictions.iter().take(5).for_each(|text| println!("  {text}"));
     }
+    widths(&gpu);
     if paper > 0 {
         paper_counts(&gpu);
     }
@@ -133,6 +136,50 @@ fn operations(scene: &Scene) -> [u64; 2] {
         }
         known.get("value").copied().unwrap_or(0)
     })
+}
+
+/// 32 against 64 bits, in one process and in turns.
+fn widths(gpu: &Gpu) {
+    println!(
+        "\n| scene, {WIDE} x {WIDE} | bits | pixels left | brackets left | evaluations: surfaces, light | milliseconds: surfaces, light |"
+    );
+    println!("|---|---|---|---|---|---|");
+    let stop = AtomicBool::new(false);
+    for name in SCENES.into_iter().chain(["links", "torus"]) {
+        let scene = scene(name);
+        let surfaces = surfaces(&scene);
+        let film = Film { camera: scene.view.camera(1.0), width: WIDE, height: WIDE };
+        let lights: Vec<Rect> = scene.lights.iter().map(|l| l.rect).collect();
+        let all = [Width::Single, Width::Double];
+        let kernels = all.map(|width| Kernels::of_width(gpu, &surfaces, &film, &lights, TOLERANCE, width));
+        let mut runs: [Vec<Proved>; 2] = Default::default();
+        for _ in 0..6 {
+            for (kernels, runs) in kernels.iter().zip(&mut runs) {
+                if let Ok(kernels) = kernels {
+                    runs.extend(kernels.prove(gpu, &stop, &mut |_| ()));
+                }
+            }
+        }
+        for (runs, bits) in runs.iter().zip([32, 64]) {
+            let [_, warm @ ..] = &runs[..] else { continue };
+            let (Some(last), clock) = (warm.last(), |f: &dyn Fn(&[f64]) -> f64| {
+                1e3 * median(warm.iter().filter(|p| !p.seconds.is_empty()).map(|p| f(&p.seconds)).collect())
+            }) else {
+                continue;
+            };
+            let open = last.pixels.iter().filter(|p| matches!(p, Pixel::Open { .. })).count();
+            let hit = |k: &usize| matches!(last.pixels[*k], Pixel::Hit { .. });
+            let wide = |l: &Vec<[f64; 2]>| (0..l.len()).filter(hit).filter(|k| l[*k][1] - l[*k][0] > TOLERANCE).count();
+            println!(
+                "| {name} | {bits} | {open} | {} | {}, {} | {:.1}, {:.1} |",
+                last.lights.iter().map(wide).sum::<usize>(),
+                last.evaluations[0],
+                last.evaluations[1],
+                clock(&|s| s[0]),
+                clock(&|s| s[1..].iter().sum()),
+            );
+        }
+    }
 }
 
 fn paper_counts(gpu: &Gpu) {

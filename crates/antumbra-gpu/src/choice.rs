@@ -58,23 +58,32 @@ pub async fn chosen<M: Machine>(
     }
     let side = |pixels: usize| ((pixels as f64 / step) as usize).max(1);
     let sample = Film { width: side(film.width), height: side(film.height), ..*film };
-    let mut measured = [Measured::default(); 2];
-    for (width, measured) in [Width::Single, Width::Double].into_iter().zip(&mut measured) {
-        let kernels = match compile(&sample, width) {
-            Ok(kernels) => kernels,
-            // What 64 bits do not have, 32 do.
-            Err(_) if width == Width::Double => return Ok((compile(film, Width::Single)?, Width::Single, None)),
-            Err(error) => return Err(error),
-        };
-        // Drivers compile when a kernel runs for the first time.
-        kernels.prove_async(gpu, stop, &mut |_| ()).await?;
-        let begin = gpu.seconds();
-        let proved = kernels.prove_async(gpu, stop, &mut |_| ()).await?;
-        *measured = Measured::of(&proved, gpu.seconds() - begin, *tolerance);
-    }
-    let [single, double] = measured;
+    let single = measure(gpu, compile(&sample, Width::Single)?, stop, *tolerance).await?;
+    let double = match compile(&sample, Width::Double) {
+        Ok(kernels) => measure(gpu, kernels, stop, *tolerance).await,
+        Err(error) => Err(error),
+    };
+    let double = match double {
+        Ok(double) => double,
+        Err(Error::Stopped) => return Err(Error::Stopped),
+        // What 64 bits do not have, or cannot do here, 32 do.
+        Err(_) => return Ok((compile(film, Width::Single)?, Width::Single, None)),
+    };
     let width = if double.cost() < single.cost() { Width::Double } else { Width::Single };
-    Ok((compile(film, width)?, width, Some(measured)))
+    Ok((compile(film, width)?, width, Some([single, double])))
+}
+
+async fn measure<M: Machine>(
+    gpu: &M,
+    kernels: Kernels<M>,
+    stop: &AtomicBool,
+    tolerance: f64,
+) -> Result<Measured, Error> {
+    // Drivers compile when a kernel runs for the first time.
+    kernels.prove_async(gpu, stop, &mut |_| ()).await?;
+    let begin = gpu.seconds();
+    let proved = kernels.prove_async(gpu, stop, &mut |_| ()).await?;
+    Ok(Measured::of(&proved, gpu.seconds() - begin, tolerance))
 }
 
 #[cfg(test)]

@@ -1,11 +1,12 @@
 //! Pictures of the GPU against those of the processor: nothing that both claim may be contradictory. Where there is no adapter, they say
 //! loudly that they were skipped (and fail if `ANTUMBRA_GPU_REQUIRED` is set).
+use antumbra::eval::wgsl::Width;
 use antumbra::geom::{Film, Rect};
 use antumbra::paper;
 use antumbra::render::{Frame, Method, RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{GALLERY, PRESETS, Scene, named};
 use antumbra::trace::Surface;
-use antumbra_gpu::{Error, Gpu, Kernels, Paper, Pixel, assist, check, compare, trace};
+use antumbra_gpu::{Error, Gpu, Kernels, Machine, Paper, Pixel, assist, check, compare, trace};
 use std::collections::BTreeSet;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -265,4 +266,27 @@ fn the_paper_refuses_what_it_does_not_have() {
     // Once begun, it has no use for what others find.
     let begun = finished(Renderer::new(Arc::new(scene("sphere")), small, RunSpec::default()).unwrap());
     assert!(matches!(trace(&gpu, &mut { begun }, &mut |_| ()), Err(Error::Scene(text)) if text.contains("begun")));
+}
+
+/// A picture of some size is drawn in the numbers that a sample of it says are better; a small one in 32 bits, as is what has no others.
+#[test]
+fn the_numbers_of_a_picture_are_chosen_by_measurement() {
+    let Some(gpu) = gpu() else { return };
+    let share = |name: &str, side: usize| {
+        let mut picture = sized(scene(name), side, Method::Certified);
+        let share = assist(&gpu, &mut picture, &mut |_| ()).unwrap();
+        share
+    };
+    let small = share("sphere", SIDE);
+    assert!(small.measured.is_none() && small.width == Width::Single, "{small:?}");
+    // What has functions has no kernels in 64 bits.
+    let functions = share("blobs", 160);
+    assert!(functions.measured.is_none() && functions.width == Width::Single, "{functions:?}");
+    if !gpu.has_double() {
+        return;
+    }
+    let large = share("links", 160);
+    let [single, double] = large.measured.unwrap();
+    assert!(single.seconds > 0.0 && double.seconds > 0.0, "{large:?}");
+    assert!(double.left < single.left, "{large:?}");
 }
