@@ -274,8 +274,7 @@ fn the_numbers_of_a_picture_are_chosen_by_measurement() {
     let Some(gpu) = gpu() else { return };
     let share = |name: &str, side: usize| {
         let mut picture = sized(scene(name), side, Method::Certified);
-        let share = assist(&gpu, &mut picture, &mut |_| ()).unwrap();
-        share
+        assist(&gpu, &mut picture, &mut |_| ()).unwrap()
     };
     let small = share("sphere", SIDE);
     assert!(small.measured.is_none() && small.width == Width::Single, "{small:?}");
