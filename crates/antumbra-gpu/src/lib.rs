@@ -1,8 +1,8 @@
 //! Pictures on the GPU, without giving up a proof.
 //!
 //! Kernels are WGSL, generated for each formula by [`antumbra::eval::wgsl`]; they run on any adapter that wgpu reaches and that passes the
-//! start-up [`probe`]. What they claim is a theorem about the real function, as on the CPU: their 32-bit arithmetic bounds its own
-//! rounding and does not trust the compiler of the driver. What 32 bits cannot prove is left open, and the CPU finishes it.
+//! start-up [`probe`]. What they claim is a theorem about the real function, as on the CPU: their arithmetic, in 32 bits, or in 64 where that is
+//! measured to pay ([`chosen`]), bounds its own rounding and does not trust the compiler of the driver. What it cannot prove is left open, and the CPU finishes it.
 //!
 //! The host of the kernels speaks to a [`Machine`]. With the feature `native` that is a [`Gpu`] of wgpu's; the web page brings its own.
 #![forbid(unsafe_code)]
