@@ -20,9 +20,9 @@ mod machine;
 #[cfg(all(test, feature = "native"))]
 mod negligence;
 mod pace;
-#[cfg(feature = "native")]
 mod paper;
 pub mod probe;
+#[cfg(feature = "native")]
 mod probe_double;
 mod receipt;
 mod scene;
