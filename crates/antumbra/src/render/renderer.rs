@@ -101,7 +101,22 @@ impl Renderer {
         let spare = Spare::default();
         let (grids, clock, part) = (Vec::new(), std_clock, Part::WHOLE);
         let (given, traced) = (None, None);
-        Ok(Self { task, spec, divided, crew, clock, grids, book, given, traced, stage, part, next_tile: 0, stop, spare })
+        Ok(Self {
+            task,
+            spec,
+            divided,
+            crew,
+            clock,
+            grids,
+            book,
+            given,
+            traced,
+            stage,
+            part,
+            next_tile: 0,
+            stop,
+            spare,
+        })
     }
 
     /// Writes everything that is known, so that [`Renderer::resume`] can go on with it: some 50 to 300 bytes for each
