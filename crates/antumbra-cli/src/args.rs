@@ -129,8 +129,8 @@ pub(crate) struct RenderArgs {
     #[arg(long, value_name = "MIB", value_parser = clap::value_parser!(u64).range(1..=1 << 40))]
     pub(crate) memory: Option<u64>,
 
-    /// Who does it: cpu; gpu proves what it can, the processor the rest; auto takes a GPU if there is one. All prove what they say; the
-    /// bits of cpu and gpu differ
+    /// Who does it: cpu; gpu, for certified, paper and fixed49, does what it can, the processor the rest; auto takes a GPU if there is one.
+    /// All prove what they say; the bits of cpu and gpu differ
     #[arg(long, value_name = "DEVICE", default_value = "cpu", value_parser = values::device)]
     pub(crate) device: Device,
 

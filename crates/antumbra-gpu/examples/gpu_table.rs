@@ -1,12 +1,12 @@
 //! What a GPU takes for the four scenes of the paper: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats [WxH... [side of the paper's pictures, 0 for none]]]`.
 //! With `--despite` it goes on where the probe fails, for diagnosis. Prints what the probe says, contradictions against the CPU, and milliseconds by the clock of the GPU, medians.
-use antumbra::eval::wgsl;
+use antumbra::eval::wgsl::{self, Width};
 use antumbra::geom::{Film, Rect};
 use antumbra::paper;
-use antumbra::render::{Method, RenderSpec, Renderer, RunSpec};
+use antumbra::render::{Method, RenderSpec, Renderer, RunSpec, Traced};
 use antumbra::scene::{Scene, named};
 use antumbra::trace::Surface;
-use antumbra_gpu::{Found, Gpu, Kernels, Paper, Pixel, Proved, adapters, compare, probe, throughput};
+use antumbra_gpu::{Gpu, Kernels, Paper, Pixel, Proved, adapters, compare, probe, throughput};
 use std::collections::HashMap;
 use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
@@ -16,6 +16,8 @@ const SCENES: [&str; 4] = ["orthocircle", "chubs", "mcmullen", "kusner"];
 const TOLERANCE: f64 = 1.0 / 255.0;
 /// Side of the pictures that are compared with the CPU's.
 const COMPARED: usize = 96;
+/// Side of the pictures in 32 and 64 bits.
+const WIDE: usize = 128;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -68,8 +70,7 @@ fn main() {
                 continue;
             }
         };
-        let spec = RenderSpec { width: COMPARED, height: COMPARED, ..RenderSpec::default() };
-        let mut cpu = Renderer::new(Arc::new(scene), spec, RunSpec::default()).expect("a picture of this size fits");
+        let mut cpu = renderer(scene, (COMPARED, COMPARED), Method::Certified);
         while !cpu.refine(Duration::from_secs(3600)) {}
         let c = compare(&proved, cpu.frame(), TOLERANCE);
         let open = c.pixels - c.empty - c.hits;
@@ -83,6 +84,7 @@ fn main() {
         );
         c.contradictions.iter().take(5).for_each(|text| println!("  {text}"));
     }
+    widths(&gpu);
     if paper > 0 {
         paper_counts(&gpu);
     }
@@ -136,6 +138,50 @@ fn operations(scene: &Scene) -> [u64; 2] {
     })
 }
 
+/// 32 against 64 bits, in one process and in turns.
+fn widths(gpu: &Gpu) {
+    println!(
+        "\n| scene, {WIDE} x {WIDE} | bits | pixels left | brackets left | evaluations: surfaces, light | milliseconds: surfaces, light |"
+    );
+    println!("|---|---|---|---|---|---|");
+    let stop = AtomicBool::new(false);
+    for name in SCENES.into_iter().chain(["links", "torus"]) {
+        let scene = scene(name);
+        let surfaces = surfaces(&scene);
+        let film = Film { camera: scene.view.camera(1.0), width: WIDE, height: WIDE };
+        let lights: Vec<Rect> = scene.lights.iter().map(|l| l.rect).collect();
+        let all = [Width::Single, Width::Double];
+        let kernels = all.map(|width| Kernels::of_width(gpu, &surfaces, &film, &lights, TOLERANCE, width));
+        let mut runs: [Vec<Proved>; 2] = Default::default();
+        for _ in 0..6 {
+            for (kernels, runs) in kernels.iter().zip(&mut runs) {
+                if let Ok(kernels) = kernels {
+                    runs.extend(kernels.prove(gpu, &stop, &mut |_| ()));
+                }
+            }
+        }
+        for (runs, bits) in runs.iter().zip([32, 64]) {
+            let [_, warm @ ..] = &runs[..] else { continue };
+            let (Some(last), clock) = (warm.last(), |f: &dyn Fn(&[f64]) -> f64| {
+                1e3 * median(warm.iter().filter(|p| !p.seconds.is_empty()).map(|p| f(&p.seconds)).collect())
+            }) else {
+                continue;
+            };
+            let open = last.pixels.iter().filter(|p| matches!(p, Pixel::Open { .. })).count();
+            let hit = |k: &usize| matches!(last.pixels[*k], Pixel::Hit { .. });
+            let wide = |l: &Vec<[f64; 2]>| (0..l.len()).filter(hit).filter(|k| l[*k][1] - l[*k][0] > TOLERANCE).count();
+            println!(
+                "| {name} | {bits} | {open} | {} | {}, {} | {:.1}, {:.1} |",
+                last.lights.iter().map(wide).sum::<usize>(),
+                last.evaluations[0],
+                last.evaluations[1],
+                clock(&|s| s[0]),
+                clock(&|s| s[1..].iter().sum()),
+            );
+        }
+    }
+}
+
 fn paper_counts(gpu: &Gpu) {
     println!(
         "\n| the paper, {COMPARED} x {COMPARED}: GPU / CPU | hits | initial beams occluded | pixels in shadow | evaluations: pixels | initial | sub-beams |"
@@ -143,7 +189,7 @@ fn paper_counts(gpu: &Gpu) {
     println!("|---|---|---|---|---|---|---|");
     for name in SCENES {
         let scene = scene(name);
-        match draw_paper(gpu, &scene, (COMPARED, COMPARED), false, 1) {
+        match draw_paper(gpu, &scene, (COMPARED, COMPARED), paper::Method::Initial, 1) {
             Ok((found, _)) => compare_paper(name, scene, &found),
             Err(error) => println!("| {name} | {error} |"),
         }
@@ -174,23 +220,24 @@ fn paper_table(gpu: &Gpu, side: usize, repeats: usize) {
     println!("|---|---|---|---|---|---|---|---|---|");
     for name in SCENES {
         let scene = scene(name);
-        let drawn = draw_paper(gpu, &scene, (side, side), false, repeats);
-        let always = draw_paper(gpu, &scene, (side, side), true, repeats);
+        let drawn = draw_paper(gpu, &scene, (side, side), paper::Method::Initial, repeats);
+        let always = draw_paper(gpu, &scene, (side, side), paper::Method::Fixed, repeats);
         if let (Ok((found, times)), Ok((fixed, fixed_times))) = (drawn, always) {
             let ms = |s: f64| format!("{:.3}", 1e3 * s);
             let [shadow, all] = [times[2] + times[3], fixed_times[2] + fixed_times[3]];
             let each: Vec<String> = times.iter().map(|t| ms(*t)).collect();
             let millions = |n: u64| n as f64 * 1e-6;
+            let [found, fixed] = [&found, &fixed].map(evaluations);
             println!(
                 "| {name} | {} | {} | {} | {:.1} | {:.1}, {:.1}, {:.1}, {:.1} |",
                 each.join(" | "),
                 ms(shadow),
                 ms(all),
                 100.0 * (1.0 - shadow / all),
-                millions(found.evaluations[0]),
-                millions(found.evaluations[1]),
-                millions(found.evaluations[2]),
-                millions(fixed.evaluations[2]),
+                millions(found[0]),
+                millions(found[1]),
+                millions(found[2]),
+                millions(fixed[2]),
             );
         }
     }
@@ -201,50 +248,47 @@ fn draw_paper(
     gpu: &Gpu,
     scene: &Scene,
     (width, height): (usize, usize),
-    always: bool,
+    method: paper::Method,
     repeats: usize,
-) -> Result<(Found, Vec<f64>), antumbra_gpu::Error> {
-    let surfaces = surfaces(scene);
-    let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
-    let usual = RenderSpec::default();
-    let settings = paper::Settings {
-        sub_beams: usual.sub_beams,
-        offset: RenderSpec::OFFSET * scene.scale(),
-        bisection: usual.bisection,
-        seed: usual.seed,
-    };
-    let kernels = Paper::new(gpu, &surfaces, &film, &scene.lights[0].rect, &settings, usual.grid, always)?;
+) -> Result<(Traced, Vec<f64>), antumbra_gpu::Error> {
+    let picture = renderer(scene.clone(), (width, height), Method::Paper(method));
+    let kernels = Paper::new(gpu, &picture.question())?;
     let stop = AtomicBool::new(false);
     let mut times: Vec<Vec<f64>> = Vec::new();
-    let mut found = kernels.run(gpu, &stop)?;
+    let mut found = kernels.run(gpu, &stop, &mut |_| ())?;
     for _ in 1..repeats {
-        found = kernels.run(gpu, &stop)?;
+        found = kernels.run(gpu, &stop, &mut |_| ())?;
         times.push(found.seconds.clone());
     }
     let medians = (0..found.seconds.len()).map(|k| median(times.iter().map(|t| t[k]).collect())).collect();
-    Ok((found, medians))
+    Ok((found.traced, medians))
 }
 
-fn compare_paper(name: &str, scene: Scene, found: &Found) {
-    let method = Method::Paper(paper::Method::Initial);
-    let spec = RenderSpec { width: COMPARED, height: COMPARED, method, ..RenderSpec::default() };
-    let mut cpu = Renderer::new(Arc::new(scene), spec, RunSpec::default()).expect("a picture of this size fits");
+/// Evaluations: of pixel beams, of initial beams, of sub-beams.
+fn evaluations(traced: &Traced) -> [u64; 3] {
+    let pixels = traced.pixels.iter().map(|p| u64::from(p.evaluations)).sum();
+    let of_lights = |k: usize| traced.lights.iter().flatten().map(|l| l.evaluations[k]).sum();
+    [pixels, of_lights(0), of_lights(1)]
+}
+
+fn compare_paper(name: &str, scene: Scene, traced: &Traced) {
+    let mut cpu = renderer(scene, (COMPARED, COMPARED), Method::Paper(paper::Method::Initial));
     while !cpu.refine(Duration::from_secs(3600)) {}
     let (stats, planes) = (cpu.stats(), &cpu.frame().lights[0]);
-    let hits = found.hits.iter().flatten().count();
-    let shadow = found.blocked.iter().filter(|b| **b > 0).count();
+    let hits = traced.pixels.iter().filter(|p| p.find.is_some()).count();
+    let occluded = traced.lights[0].iter().filter(|l| l.initial_occluded).count();
+    let shadow = traced.lights[0].iter().filter(|l| l.blocked > 0).count();
     let shadow_cpu = planes.visible_lo.iter().filter(|v| **v < 1.0).count();
+    let [pixels, initial, sub] = evaluations(traced);
     println!(
-        "| {name} | {hits} / {} | {} / {} | {shadow} / {shadow_cpu} | {} / {} | {} | {} (both {}) |",
-        stats.hits,
-        found.initial_occluded,
-        stats.initial_occluded,
-        found.evaluations[0],
-        stats.primary_evaluations,
-        found.evaluations[1],
-        found.evaluations[2],
-        stats.shadow_evaluations,
+        "| {name} | {hits} / {} | {occluded} / {} | {shadow} / {shadow_cpu} | {pixels} / {} | {initial} | {sub} (both {}) |",
+        stats.hits, stats.initial_occluded, stats.primary_evaluations, stats.shadow_evaluations,
     );
+}
+
+fn renderer(scene: Scene, (width, height): (usize, usize), method: Method) -> Renderer {
+    let spec = RenderSpec { width, height, method, ..RenderSpec::default() };
+    Renderer::new(Arc::new(scene), spec, RunSpec::default()).expect("a picture of this size fits")
 }
 
 fn surfaces(scene: &Scene) -> Vec<Surface<'_>> {

@@ -1,10 +1,15 @@
 //! A renderer that is told what the GPU has proved, and does the rest itself.
 #[cfg(feature = "native")]
-use crate::device::Gpu;
+use crate::chosen;
+#[cfg(feature = "native")]
+use crate::device::{self, Gpu};
 use crate::error::Error;
 use crate::machine::Machine;
-use crate::{Kernels, Pixel, Proved};
+use crate::{Kernels, Measured, Pixel, Proved};
+use antumbra::eval::wgsl::Width;
 use antumbra::render::{Given, GivenPixel, Renderer};
+
+const NO_USE: &str = "only a certified picture that has not begun has use for the GPU";
 
 /// What the GPU contributed to a picture.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -17,6 +22,10 @@ pub struct Share {
     pub brackets: usize,
     /// Of them: brackets within the tolerance.
     pub narrow: usize,
+    /// The numbers that its kernels computed with.
+    pub width: Width,
+    /// What a sample cost in 32 and in 64 bits, if that was measured.
+    pub measured: Option<[Measured; 2]>,
     /// Seconds until the kernels were compiled, and until everything was read back.
     pub seconds: [f64; 2],
 }
@@ -52,13 +61,11 @@ impl Proved {
             settled: given.pixels.iter().flatten().count(),
             brackets: hits.len() * given.lights.len(),
             narrow: given.lights.iter().map(narrow).sum(),
+            width: Width::Single,
+            measured: None,
             seconds,
         };
-        if renderer.give(given) {
-            Ok(share)
-        } else {
-            Err(Error::Scene("only a certified picture that has not begun has use for the GPU"))
-        }
+        if renderer.give(given) { Ok(share) } else { Err(Error::Scene(NO_USE)) }
     }
 }
 
@@ -68,10 +75,15 @@ impl Proved {
 /// Why the GPU did nothing; the renderer is as it was and does all of it. [`Error::Stopped`] if its stop flag was set.
 #[cfg(feature = "native")]
 pub fn assist(gpu: &Gpu, renderer: &mut Renderer, progress: &mut dyn FnMut(f64)) -> Result<Share, Error> {
+    if !renderer.takes() {
+        return Err(Error::Scene(NO_USE));
+    }
     let begin = gpu.seconds();
-    let kernels = kernels(gpu, renderer)?;
+    let stop = renderer.stop_flag();
+    let (kernels, width, measured) = device::finish(chosen(gpu, &renderer.question(), &stop))?;
     let compiled = gpu.seconds() - begin;
-    let proved = kernels.prove(gpu, &renderer.stop_flag(), progress)?;
+    let proved = kernels.prove(gpu, &stop, progress)?;
     let done = gpu.seconds() - begin;
-    proved.give_to(renderer, [compiled, done])
+    let share = proved.give_to(renderer, [compiled, done])?;
+    Ok(Share { width, measured, ..share })
 }

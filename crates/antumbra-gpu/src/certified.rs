@@ -7,8 +7,9 @@ use crate::device::{self, Gpu};
 use crate::error::Error;
 use crate::machine::{Machine, Usage};
 use crate::pace::Pace;
-use crate::scene::{self, Frame, Region};
-use antumbra::eval::wgsl::{FORMS, Kind};
+use crate::receipt::{Receipts, tickets};
+use crate::scene::{self, Frame, Region, Upload};
+use antumbra::eval::wgsl::{Kind, Width};
 use antumbra::geom::{Film, Rect};
 use antumbra::trace::{Sign, Surface};
 use antumbra_interval::Interval;
@@ -56,7 +57,12 @@ pub struct Kernels<M: Machine> {
     stages: [Stage<M::Pipeline>; STAGES],
     frame: Frame,
     regions: Vec<Region>,
+    /// Of the regions.
+    seal: u32,
     lights: Vec<Rect>,
+    /// Most pixels of a band, if it has more rows than the 8 of a tile.
+    pub(crate) band: u32,
+    width: Width,
 }
 
 struct Stage<P> {
@@ -78,7 +84,7 @@ const PARTS: u64 = 2;
 /// Bytes of a part, and of what comes before the first one.
 const PART: u64 = 32;
 const HEAD: u64 = 16;
-/// Pixels of a band, at most, if it has more rows than the 8 of a tile. 176 bytes each, with what is read back 192 MiB in all.
+/// Pixels of a band: 176 bytes each, with what is read back 192 MiB in all.
 const BAND: u32 = 1 << 20;
 
 /// Whether the GPU can draw these surfaces on a film under lights, without compiling anything.
@@ -86,14 +92,20 @@ const BAND: u32 = 1 << 20;
 /// # Errors
 /// Why the scene stays on the CPU.
 pub fn check(surfaces: &[Surface<'_>], film: &Film, lights: &[Rect]) -> Result<(), Error> {
-    text(surfaces, film, lights).map(|_| ())
+    text(surfaces, film, lights, Width::Single).map(|_| ())
 }
 
 /// The numbers of the picture, and the text that all kernels begin with.
-fn text(surfaces: &[Surface<'_>], film: &Film, lights: &[Rect]) -> Result<(Frame, Vec<Region>, String), Error> {
+fn text(
+    surfaces: &[Surface<'_>],
+    film: &Film,
+    lights: &[Rect],
+    width: Width,
+) -> Result<(Frame, Vec<Region>, String), Error> {
     let (frame, regions) = scene::frame(surfaces, film)?;
-    let functions = scene::functions(surfaces, &[Kind::Form, Kind::Slope], &frame, film, lights)?;
-    Ok((frame, regions, format!("{FORMS}\n{}\n{functions}", include_str!("kernels/frame.wgsl"))))
+    let functions = scene::functions(surfaces, width, &[Kind::Form, Kind::Slope], &frame, film, lights)?;
+    let common = width.text(include_str!("kernels/frame.wgsl"));
+    Ok((frame, regions, format!("{}\n{common}\n{}", width.forms(), width.text(&functions))))
 }
 
 impl<M: Machine> Kernels<M> {
@@ -102,9 +114,24 @@ impl<M: Machine> Kernels<M> {
     /// # Errors
     /// Why the scene stays on the CPU.
     pub fn new(gpu: &M, surfaces: &[Surface<'_>], film: &Film, lights: &[Rect], tolerance: f64) -> Result<Self, Error> {
-        let (frame, regions, common) = text(surfaces, film, lights)?;
-        let primary = format!("{common}\n{}", include_str!("kernels/primary.wgsl"));
-        let shadow = format!("{common}\n{}", include_str!("kernels/shadow.wgsl"));
+        Self::of_width(gpu, surfaces, film, lights, tolerance, Width::Single)
+    }
+
+    /// The same with numbers of that width.
+    ///
+    /// # Errors
+    /// As for [`Kernels::new`]; what has no kernels in 64 bits.
+    pub fn of_width(
+        gpu: &M,
+        surfaces: &[Surface<'_>],
+        film: &Film,
+        lights: &[Rect],
+        tolerance: f64,
+        width: Width,
+    ) -> Result<Self, Error> {
+        let (frame, mut regions, common) = text(surfaces, film, lights, width)?;
+        let primary = format!("{common}\n{}", width.text(include_str!("kernels/primary.wgsl")));
+        let shadow = format!("{common}\n{}", width.text(include_str!("kernels/shadow.wgsl")));
         let begin = if gpu.is_software() { 64 } else { 4096 };
         let stage = |text: &str, entry: &str, constants: &[(&str, f64)]| -> Result<Stage<M::Pipeline>, Error> {
             Ok(Stage { pipeline: gpu.pipeline(text, entry, constants)?, pace: Pace::new(begin) })
@@ -122,7 +149,8 @@ impl<M: Machine> Kernels<M> {
             // Shorter pieces pay where nothing is looked at again.
             divided("refine", 4 * SIDE, 1.0)?,
         ];
-        Ok(Self { stages, frame, regions, lights: lights.to_vec() })
+        let seal = scene::seal(&mut regions);
+        Ok(Self { stages, frame, regions, seal, lights: lights.to_vec(), band: BAND, width })
     }
 
     /// Proves what it can. `stop` is looked at between dispatches; `progress` hears after each of them which part of the work is done, in
@@ -137,8 +165,7 @@ impl<M: Machine> Kernels<M> {
         progress: &mut dyn FnMut(f64),
     ) -> Result<Proved, Error> {
         let [width, height] = [self.frame.width, self.frame.height];
-        // Whole tiles of 8 x 8 pixels.
-        let rows = (BAND / width / 8 * 8).max(8).min(height);
+        let rows = self.frame.band(self.band);
         let mut run = Run::new(gpu, self, rows * width, stop, progress)?;
         for first in (0..height).step_by(rows as usize) {
             run.band(first, rows.min(height - first)).await?;
@@ -170,7 +197,8 @@ struct Run<'a, M: Machine> {
     before: M::Buffer,
     hits: M::Buffer,
     parts: [M::Buffer; 2],
-    spent: M::Buffer,
+    account: M::Buffer,
+    handed: Receipts,
     binds: [M::Binding; STAGES],
     proved: Proved,
     clocked: bool,
@@ -187,20 +215,21 @@ impl<'a, M: Machine> Run<'a, M> {
         progress: &'a mut dyn FnMut(f64),
     ) -> Result<Self, Error> {
         let pixels = u64::from(pixels);
-        let frame = gpu.filled(bytemuck::bytes_of(&kernels.frame), Usage::Uniform)?;
-        let regions = gpu.filled(bytemuck::cast_slice(&kernels.regions), Usage::Uniform)?;
+        let frame = gpu.filled(&kernels.frame.bytes(kernels.width), Usage::Uniform)?;
+        let regions: Vec<u8> = kernels.regions.iter().flat_map(|r| r.bytes(kernels.width)).collect();
+        let regions = gpu.filled(&regions, Usage::Uniform)?;
         let storage = |bytes: u64| gpu.buffer(bytes, Usage::Storage);
         let found = storage(16 * pixels)?;
         let [sums, before] = [storage(8 * pixels)?, storage(8 * pixels)?];
         let hits = storage(HEAD + 16 * pixels)?;
         let list = || storage(HEAD + PART * PARTS * pixels);
         let parts = [list()?, list()?];
-        let spent = storage(16)?;
+        let account = storage(16)?;
         let pipeline = |k: usize| &kernels.stages[k].pipeline;
-        let common = [(0, &frame), (1, &regions), (2, &found), (3, &sums), (7, &spent)];
+        let common = [(0, &frame), (1, &regions), (2, &found), (9, &account), (3, &sums)];
         let light = |k: usize, more: &[(u32, &M::Buffer)]| gpu.bind(pipeline(k), &[&common[..], more].concat());
         let binds = [
-            gpu.bind(pipeline(0), &common[..3])?,
+            gpu.bind(pipeline(0), &common[..4])?,
             light(1, &[(5, &hits)])?,
             light(2, &[(5, &hits), (6, &parts[0])])?,
             light(3, &[(4, &before), (6, &parts[1]), (8, &parts[0])])?,
@@ -219,7 +248,8 @@ impl<'a, M: Machine> Run<'a, M> {
             before,
             hits,
             parts,
-            spent,
+            account,
+            handed: Receipts::default(),
             binds,
             proved,
             clocked: true,
@@ -247,8 +277,9 @@ impl<'a, M: Machine> Run<'a, M> {
             let part = pace.next(groups - first);
             // What is past the end of a list is looked at by nobody.
             let count = (part * each).min(frame.count - first * each);
-            let frame = Frame { first: frame.first + first * each, count, ..frame };
-            self.gpu.write(&self.frame, bytemuck::bytes_of(&frame));
+            let ticket = self.handed.hand_out(part, self.kernels.seal);
+            let frame = Frame { first: frame.first + first * each, count, ticket, ..frame };
+            self.gpu.write(&self.frame, &frame.bytes(self.kernels.width));
             let begin = self.gpu.seconds();
             let time = self.gpu.run(pipeline, &self.binds[stage], part).await?;
             pace.took(part, self.gpu.seconds() - begin);
@@ -276,17 +307,16 @@ impl<'a, M: Machine> Run<'a, M> {
         let base = Frame { base: top * whole.width, ..whole };
         let across = whole.width.div_ceil(8);
         let tiles = across * rows.div_ceil(8);
-        // What a dispatch that failed silently left unwritten must not be what was written for another band.
-        self.gpu.clear(&[&self.found]);
         self.stage(0, 0, Frame { first: top / 8 * across, count: tiles, ..base }, tiles, 1, work).await?;
         let mut found: Vec<[u32; 4]> = self.gpu.read_all(&self.found).await?;
+        let mut spent = self.settle().await?;
         found.truncate(pixels as usize);
         self.proved.evaluations[0] += found.iter().map(|f| u64::from(f[3])).sum::<u64>();
         let quantum = whole.quantum();
         self.proved.pixels.extend(found.iter().map(|f| pixel(f, quantum)));
         for (k, light) in self.kernels.lights.iter().enumerate() {
-            self.gpu.clear(&[&self.sums, &self.hits, &self.parts[0], &self.spent]);
-            let frame = base.lit_by(light);
+            self.gpu.clear(&[&self.hits, &self.parts[0]]);
+            let frame = Frame { series: tickets(1), ..base.lit_by(light) };
             let place = 1 + LIGHT * k;
             let all = Frame { first: 0, count: pixels, ..frame };
             self.stage(1, place, all, pixels.div_ceil(GROUP), GROUP, work).await?;
@@ -303,14 +333,22 @@ impl<'a, M: Machine> Run<'a, M> {
                 self.stage(3 + division, place + 2 + division, count, parts.div_ceil(GROUP / 4), GROUP / 4, work)
                     .await?;
             }
-            self.proved.evaluations[1] += u64::from(self.gpu.read_first(&self.spent).await?);
             let sums: Vec<[u32; 2]> = self.gpu.read_all(&self.sums).await?;
+            let before = spent;
+            spent = self.settle().await?;
+            self.proved.evaluations[1] += u64::from(spent.wrapping_sub(before));
             // Sums of integers, exact; what is lit and what is hidden are different parts of the light.
             let share = |n: u32| f64::from(n) / f64::from(1_u32 << 30);
             let brackets = sums.iter().map(|[lit, dark]| [share(*lit), 1.0 - share(*dark)]);
             self.proved.lights[k].extend(brackets.take(pixels as usize));
         }
         Ok(())
+    }
+
+    /// Sees to it that everything was done so far, and tells how many evaluations lights have taken.
+    async fn settle(&self) -> Result<u32, Error> {
+        let [receipts, evaluations, ..] = self.gpu.read::<[u32; 4]>(&self.account, 16).await?[0];
+        if self.handed.is_sum(receipts) { Ok(evaluations) } else { Err(Receipts::missing()) }
     }
 
     /// How many items of so many bytes a list holds; those that found no place are not in it.

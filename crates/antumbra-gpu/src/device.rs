@@ -1,9 +1,9 @@
 //! Adapters, and one of them opened: buffers, pipelines, passes with their times.
 use crate::error::Error;
 use crate::machine::{Machine, Usage};
-use crate::probe;
+use crate::{probe, probe_double};
 use std::collections::HashMap;
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 use std::time::Instant;
 use wgpu::{BindGroup, Buffer, BufferUsages, ComputePipeline, Features};
 
@@ -38,6 +38,8 @@ pub struct Gpu {
     pipelines: Mutex<HashMap<(String, String), ComputePipeline>>,
     begin: Instant,
     failures: Arc<Mutex<Failures>>,
+    /// Whether its 64-bit numbers can be trusted.
+    double: OnceLock<bool>,
 }
 
 /// What the driver told. Of a device that is lost every call fails, each in its own words.
@@ -152,7 +154,18 @@ impl Gpu {
         let limits = device.limits();
         let largest = limits.max_buffer_size.min(limits.max_storage_buffer_binding_size);
         let (pipelines, begin) = (Mutex::default(), Instant::now());
-        Ok(Self { device, queue, name: info.name, software, period, largest, pipelines, begin, failures })
+        Ok(Self {
+            device,
+            queue,
+            name: info.name,
+            software,
+            period,
+            largest,
+            pipelines,
+            begin,
+            failures,
+            double: OnceLock::new(),
+        })
     }
 
     fn probe(&self) -> Result<probe::Report, Error> {
@@ -171,8 +184,8 @@ impl Gpu {
         self.software
     }
 
-    /// Whether shaders have 64-bit floats, and the whole numbers that a fence for them needs.
-    pub(crate) fn has_double(&self) -> bool {
+    /// Whether shaders have 64-bit floats, and the whole numbers that a fence for them needs; whatever a probe says of them.
+    pub(crate) fn knows_double(&self) -> bool {
         self.device.features().contains(Features::SHADER_F64 | Features::SHADER_INT64)
     }
 
@@ -327,11 +340,6 @@ impl Gpu {
         self.read_part(buffer, buffer.size())
     }
 
-    /// Its first number.
-    pub(crate) fn read_first(&self, buffer: &Buffer) -> Result<u32, Error> {
-        Ok(self.read_part(buffer, 16)?[0])
-    }
-
     fn read_part<T: bytemuck::Pod>(&self, buffer: &Buffer, size: u64) -> Result<Vec<T>, Error> {
         let usage = BufferUsages::MAP_READ | BufferUsages::COPY_DST;
         let descriptor = wgpu::BufferDescriptor { label: None, size, usage, mapped_at_creation: false };
@@ -358,6 +366,13 @@ impl Machine for Gpu {
 
     fn is_software(&self) -> bool {
         self.software
+    }
+
+    /// Asked once: what the probe says does not change.
+    fn has_double(&self) -> bool {
+        *self.double.get_or_init(|| {
+            self.knows_double() && finish(probe_double::passes(self, &probe_double::text())).unwrap_or(false)
+        })
     }
 
     fn seconds(&self) -> f64 {

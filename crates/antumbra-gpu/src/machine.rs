@@ -29,6 +29,11 @@ pub trait Machine {
     /// Whether a processor plays the GPU.
     fn is_software(&self) -> bool;
 
+    /// Whether kernels may compute in 64 bits: it has such numbers, and they passed the probe.
+    fn has_double(&self) -> bool {
+        false
+    }
+
     /// Seconds since some moment.
     fn seconds(&self) -> f64;
 

@@ -1,6 +1,6 @@
 //! A scene as kernels see it: formulas as text, numbers rounded outward.
 use crate::error::Error;
-use antumbra::eval::wgsl::{self, FLOOR, Kind, Reach, ball, outward};
+use antumbra::eval::wgsl::{self, FLOOR, Kind, Reach, Width, ball, outward};
 use antumbra::geom::{Clip, Film, Rect, Vec3};
 use antumbra::tape::Tape;
 use antumbra::trace::Surface;
@@ -24,6 +24,9 @@ pub(crate) struct Frame {
     pub(crate) half_unit: f32,
     pub(crate) units: u32,
     pub(crate) base: u32,
+    pub(crate) ticket: u32,
+    pub(crate) series: u32,
+    pub(crate) pad: [u32; 2],
     pub(crate) eye: [f32; 4],
     pub(crate) eye_e: [f32; 4],
     pub(crate) forward: [f32; 4],
@@ -153,6 +156,9 @@ pub(crate) fn frame(surfaces: &[Surface<'_>], film: &Film) -> Result<(Frame, Vec
         half_unit: 0.5 / UNITS as f32,
         units: UNITS,
         base: 0,
+        ticket: 0,
+        series: 0,
+        pad: [0; 2],
         eye: round(camera.eye),
         eye_e: errors(|k| U * (camera.eye[k] - eye[k]).abs() + 1e-15 * camera.eye[k].abs()),
         forward: round(coarse(camera.forward)),
@@ -171,10 +177,61 @@ pub(crate) fn frame(surfaces: &[Surface<'_>], film: &Film) -> Result<(Frame, Vec
     Ok((frame, surfaces.iter().map(Region::of).collect()))
 }
 
+/// Seals the regions.
+pub(crate) fn seal(regions: &mut [Region]) -> u32 {
+    let seal = crate::receipt::seal();
+    // Whole numbers below 2^24 are exact.
+    regions[0].clip_lo[3] = seal as f32;
+    seal
+}
+
+/// Numbers as a kernel of that width reads them from uniform memory.
+pub(crate) trait Upload: Pod {
+    /// Its words as f64, in the layout that f64 has.
+    fn double(&self) -> Vec<u8>;
+
+    /// Its bytes.
+    fn bytes(&self, width: Width) -> Vec<u8> {
+        match width {
+            Width::Single => bytemuck::bytes_of(self).to_vec(),
+            Width::Double => self.double(),
+        }
+    }
+}
+
+fn widened(words: &[f32]) -> impl Iterator<Item = u8> {
+    words.iter().flat_map(|word| f64::from(*word).to_le_bytes())
+}
+
+impl Upload for Frame {
+    fn double(&self) -> Vec<u8> {
+        let words: &[u32] = bytemuck::cast_slice(bytemuck::bytes_of(self));
+        let whole = |words: &[u32]| words.iter().flat_map(|word| word.to_le_bytes()).collect::<Vec<u8>>();
+        let mut out = whole(&words[..8]);
+        out.extend(widened(bytemuck::cast_slice(&words[8..10])));
+        out.extend(whole(&words[10..16]));
+        // Vectors of four f64 begin at multiples of 32.
+        out.resize(out.len().next_multiple_of(32), 0);
+        out.extend(widened(bytemuck::cast_slice(&words[16..])));
+        out
+    }
+}
+
+impl Upload for Region {
+    fn double(&self) -> Vec<u8> {
+        widened(bytemuck::cast_slice(bytemuck::bytes_of(self))).collect()
+    }
+}
+
 impl Frame {
     /// Multiples of this are the parameters of camera rays.
     pub(crate) fn quantum(&self) -> f64 {
         2.0 * f64::from(self.half_quantum)
+    }
+
+    /// Rows of the bands that it is drawn in, whole tiles of 8 x 8 pixels: of at most so many pixels, if that makes 8 rows.
+    pub(crate) fn band(&self, pixels: u32) -> u32 {
+        (pixels / self.width / 8 * 8).max(8).min(self.height)
     }
 
     /// The same picture under that light.
@@ -209,6 +266,7 @@ fn magnitudes(frame: &Frame, film: &Film, lights: &[Rect]) -> [f64; 3] {
 /// Why they stay on the CPU.
 pub(crate) fn functions(
     surfaces: &[Surface<'_>],
+    width: Width,
     kinds: &[Kind],
     frame: &Frame,
     film: &Film,
@@ -217,7 +275,12 @@ pub(crate) fn functions(
     if surfaces.is_empty() || surfaces.len() > MOST {
         return Err(Error::Scene("a scene on the GPU has 1 to 8 surfaces"));
     }
-    let reach = magnitudes(frame, film, lights);
+    let mut reach = magnitudes(frame, film, lights);
+    if kinds.contains(&Kind::Interval) {
+        // Cells of a grid fill the clip, wherever the camera looks.
+        let clips = surfaces.iter().map(|s| s.clip.bounds());
+        clips.for_each(|clip| (0..3).for_each(|k| reach[k] = reach[k].max(2.0 * clip[k].magnitude())));
+    }
     // Where a formula does not use an axis nothing else asks; far places have no 32-bit numbers around them.
     if !reach.iter().all(|m| *m < f64::from(FAR) / 4.0) {
         return Err(Error::Scene("coordinates as large as these are not for 32-bit numbers"));
@@ -236,7 +299,7 @@ pub(crate) fn functions(
         let tape: &Tape = surface.function.as_tape().ok_or(wgsl::Refusal::NoFormula)?;
         for (kind, choose) in kinds.iter().zip(&mut choose) {
             let name = format!("{}{k}", name(*kind));
-            text.push_str(&wgsl::function(tape, &name, *kind)?);
+            text.push_str(&wgsl::function_of(tape, &name, *kind, width)?);
             let last = k + 1 == surfaces.len();
             let label = if last { "default".to_owned() } else { format!("case {k}u") };
             writeln!(choose, "        {label}: {{ return {}; }}", call(*kind, &name)).expect("strings take any text");

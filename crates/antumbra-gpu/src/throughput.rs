@@ -42,6 +42,6 @@ pub fn throughput(gpu: &Gpu) -> Result<Throughput, Error> {
         seconds.sort_by(f64::total_cmp);
         Ok(f64::from(groups) * 64.0 * 8.0 * f64::from(rounds) / seconds[2])
     };
-    let double = gpu.has_double().then(|| rate("f64", "u64", "fenced")).transpose()?;
+    let double = gpu.knows_double().then(|| rate("f64", "u64", "fenced")).transpose()?;
     Ok(Throughput { bare: rate("f32", "u32", "bare")?, fenced: rate("f32", "u32", "fenced")?, double })
 }

@@ -254,10 +254,57 @@ fn devices_are_chosen_and_adapters_listed() {
     let said = String::from_utf8_lossy(&gpu.stderr).into_owned();
     assert_eq!(gpu.status.success(), said.contains("of their brackets proved"), "{said}");
     assert!(gpu.status.success() || said.contains("--device auto goes on"), "{said}");
-    // What the GPU does not have, the processor does; the paper's method too.
+    // What the GPU does not have, the processor does.
     let sine = ["render", "sin(x) + y = 0", "--size", "16", "--device", "auto", "-o", "a.png"];
     bench.antumbra(&sine).assert().success().stderr(contains("the processor does it"));
-    let paper = ["render", "sphere", "--size", "16", "--device", "auto", "--method", "paper", "-o", "b.png"];
-    bench.antumbra(&paper).assert().success().stderr(contains("the processor does `paper`"));
+    let rays = ["render", "sphere", "--size", "16", "--device", "auto", "--method", "rays", "-o", "b.png"];
+    bench.antumbra(&rays).assert().success().stderr(contains("the processor does `rays`"));
     bench.antumbra(&["render", "sphere", "--device", "npu"]).assert().failure().stderr(contains("gpu"));
+}
+
+/// The paper's methods on the GPU, where there is one, and what stays on the processor.
+#[test]
+fn the_paper_is_drawn_by_devices() {
+    let bench = Bench::new();
+    let picture = |method: &str, device: &str, more: &[&str]| {
+        let args = ["render", "chubs", "--size", "24", "--method", method, "--device", device, "--json", "-"];
+        let output = bench.antumbra(&[&args, more].concat()).output().unwrap();
+        (output.status.success(), output.stdout, String::from_utf8_lossy(&output.stderr).into_owned())
+    };
+    for method in ["paper", "fixed49"] {
+        let (drawn, gpu, said) = picture(method, "gpu", &[]);
+        if !drawn {
+            assert!(said.contains("--device auto goes on"), "{said}");
+            continue;
+        }
+        assert!(said.contains("sub-beams traced"), "{said}");
+        let (_, cpu, _) = picture(method, "cpu", &[]);
+        let [gpu, cpu] = [gpu, cpu].map(|text| json(&text));
+        for count in ["hits", "lit", "partly", "beams", "shadow_evaluations"] {
+            let [a, b] = [&gpu, &cpu].map(|record| record[count].as_f64().unwrap());
+            assert!((a - b).abs() <= 0.05 * b + 3.0, "{method}: {count} {a} and {b}");
+        }
+        // Some bits do differ: it was not the processor that did it.
+        assert_ne!(gpu["primary_evaluations"], cpu["primary_evaluations"]);
+        let (drawn, _, said) = picture(method, "gpu", &["--floor"]);
+        assert!(drawn && said.contains("the processor does it") && said.contains("floor"), "{said}");
+    }
+}
+
+/// What was begun goes on where it was begun, whatever device is asked for.
+#[test]
+fn the_processor_goes_on_with_what_it_began_whatever_the_device() {
+    let bench = Bench::new();
+    for method in ["certified", "paper"] {
+        let args = ["render", "chubs", "--size", "96", "--threads", "1", "--method", method];
+        // Until a budget is large enough for a beginning.
+        let stopped = (0..12).any(|k| {
+            let budget = format!("{}", 0.001 * f64::from(1 << k));
+            let end = bench.antumbra(&[&args[..], &["--budget", &budget]].concat()).output().unwrap();
+            !end.status.success() && bench.file("chubs.png.state").exists()
+        });
+        assert!(stopped, "{method}");
+        let resumed = bench.antumbra(&[&args[..], &["--resume", "--device", "gpu"]].concat()).assert().success();
+        resumed.stderr(contains("the processor does it alone: the picture was begun"));
+    }
 }

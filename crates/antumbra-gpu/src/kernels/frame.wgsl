@@ -14,6 +14,9 @@ struct Frame {
     half_unit: f32,         // the same for shadow beams, whose parameters go from 0 to 1
     units: u32,             // multiples in [0, 1]
     base: u32,              // first pixel of the band that is in memory
+    ticket: u32,            // of the first group of this dispatch
+    series: u32,            // number of the band and the light: what is put on lists bears it
+    pad0: u32, pad1: u32,
     eye: vec4<f32>,
     eye_e: vec4<f32>,
     forward: vec4<f32>,
@@ -37,6 +40,29 @@ struct Region { clip_lo: vec4<f32>, clip_hi: vec4<f32>, whole_lo: vec4<f32>, who
 @group(0) @binding(1) var<uniform> regions: array<Region, SURFACES>;
 
 fn runtime_zero() -> u32 { return frame.zero; }
+
+// What the kernels account for.
+struct Account {
+    receipts: atomic<u32>,      // the sum of the hashes of the tickets of all groups that are done
+    evaluations: atomic<u32>,   // of lights
+}
+@group(0) @binding(9) var<storage, read_write> account: Account;
+
+fn hash(ticket: u32) -> u32 {
+    var x = (ticket ^ (ticket >> 16u)) * 0x85ebca6bu;
+    x = (x ^ (x >> 13u)) * 0xc2b2ae35u;
+    return x ^ (x >> 16u);
+}
+
+// The seal of the regions, a whole number.
+fn region_seal() -> u32 { return u32(regions[0].clip_lo.w); }
+
+// What a group does last, all its threads together: without it nothing that they have written is believed. `seal` is that of all that they have read
+// and the host has written once.
+fn sign_off(group: u32, local: u32, seal: u32) {
+    storageBarrier();
+    if local == 0u { atomicAdd(&account.receipts, hash(frame.ticket + group + seal)); }
+}
 
 struct Point { x: Form, y: Form, z: Form }
 // Directions c + d + i s_1 + j s_2 +- e, per axis; d is small.

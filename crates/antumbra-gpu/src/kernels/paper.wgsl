@@ -8,37 +8,62 @@ struct Paper {
     far: f32,               // no surface is met beyond this parameter
     width: f32,             // sections narrower than this are not divided
     offset: f32,            // distance at which shadow beams start
-    pad0: u32, pad1: u32,
+    seal: u32,
+    pad: u32,
 }
 @group(0) @binding(2) var<uniform> paper: Paper;
-// Outward bounds of the cells: SURFACES times 3 times `cells`.
+// Outward bounds of the cells: SURFACES times 3 times `cells`; and a seal.
 @group(0) @binding(3) var<storage, read> slabs: array<vec2<f32>>;
-// Per surface and cell, z y x: 1 if the surface may cross it.
+// Per surface and cell, z y x, a bit: whether the surface may cross it.
 @group(0) @binding(4) var<storage, read_write> marked: array<u32>;
-// Per pixel: 1 if something may be met; parameters as bits.
+// Per pixel of the band: 1 + the surface that may be met, or NOTHING; parameters as bits; evaluations.
 @group(0) @binding(5) var<storage, read_write> found: array<vec4<u32>>;
-// Per pixel: sub-beams that may be blocked.
-@group(0) @binding(6) var<storage, read_write> blocked: array<atomic<u32>>;
-// count, then pixels whose initial beam may be blocked.
-struct List { count: atomic<u32>, items: array<u32> }
+// Per pixel of the band, four words: what its light is, plus 256 for each 2^32 evaluations of sub-beams; evaluations of the initial beam; sub-beams
+// that may be blocked; evaluations of the sub-beams. Stored by `initial`, then added to.
+@group(0) @binding(6) var<storage, read_write> shade: array<atomic<u32>>;
+// Pixels whose sub-beams are traced, with the series.
+struct List { count: atomic<u32>, pad: u32, items: array<vec2<u32>> }
 @group(0) @binding(7) var<storage, read_write> list: List;
-// Evaluations: of pixels, of initial beams, of sub-beams, the latter in two words.
-@group(0) @binding(8) var<storage, read_write> spent: array<atomic<u32>, 4>;
+
+// What nobody has written is 0, and no answer.
+const NOTHING = 255u;       // no ray of the pixel meets anything
+const NEAR = 1u;            // the light is nearer than the offset: nothing lies between
+const FREE = 2u;            // the initial beam meets nothing
+const BLOCKED = 3u;         // it may meet something: sub-beams
+const ALWAYS = 4u;          // sub-beams without an initial beam
+
+fn seal() -> u32 { return region_seal() + paper.seal + u32(slabs[arrayLength(&slabs) - 1u].x); }
 
 fn possibly_zero(x: vec2<f32>) -> bool { return !(x.x > 0.0 || x.y < 0.0); }
 
-@compute @workgroup_size(64)
-fn grid(@builtin(global_invocation_id) id: vec3<u32>) {
+fn crossed(number: u32) -> bool {
     let n = paper.cells;
-    if id.x >= SURFACES * n * n * n { return; }
-    let surface = id.x / (n * n * n);
-    let cell = id.x % (n * n * n);
+    let surface = number / (n * n * n);
+    let cell = number % (n * n * n);
     let base = surface * 3u * n;
     let x = slabs[base + cell % n];
     let y = slabs[base + n + (cell / n) % n];
     let z = slabs[base + 2u * n + cell / (n * n)];
-    marked[id.x] = select(0u, 1u, possibly_zero(range(surface, x, y, z)));
+    return possibly_zero(range(surface, x, y, z));
 }
+
+// A thread for 32 cells.
+@compute @workgroup_size(64)
+fn grid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let word = frame.first + 64u * group.x + local;
+    let cells = SURFACES * paper.cells * paper.cells * paper.cells;
+    if word < arrayLength(&marked) {
+        var bits = 0u;
+        for (var k = 0u; k < 32u; k++) {
+            let number = 32u * word + k;
+            if number < cells && crossed(number) { bits |= 1u << k; }
+        }
+        marked[word] = bits;
+    }
+    sign_off(group.x, local, seal());
+}
+
+fn possibly_crossed(number: u32) -> bool { return (marked[number / 32u] >> (number % 32u) & 1u) == 1u; }
 
 // A quotient is off by 2.5 units: up to 5 steps of the finer side of a power of two, and one more.
 fn step_by(r: f32, k: i32) -> f32 {
@@ -83,10 +108,10 @@ fn cells_meeting(base: u32, v: vec2<f32>) -> vec2<u32> {
     let last = slabs[base + n - 1u].y;
     // A guess, then exact comparisons.
     let scale = f32(n) / (last - first);
-    var a = u32(clamp((v.x - first) * scale, 0.0, f32(n)));
+    var a = min(u32(clamp((v.x - first) * scale, 0.0, f32(n))), n);
     while a < n && slabs[base + a].y < v.x { a++; }
     while a > 0u && slabs[base + a - 1u].y >= v.x { a--; }
-    var b = max(a, u32(clamp((v.y - first) * scale, 0.0, f32(n))));
+    var b = max(a, min(u32(clamp((v.y - first) * scale, 0.0, f32(n))), n));
     while b < n && slabs[base + b].x <= v.y { b++; }
     while b > a && slabs[base + b - 1u].x > v.y { b--; }
     return vec2<u32>(a, b);
@@ -164,7 +189,7 @@ fn nearest(surface: u32, b: Beam, t: vec2<f32>, search: Search, any: bool, evalu
         let lines = cells_meeting(base + v * n, at(b, v, row));
         for (var j = lines.x; j < lines.y; j++) {
             for (var i = columns.x; i < columns.y; i++) {
-                if marked[surface * n * n * n + index * stride[axis] + i * stride[u] + j * stride[v]] == 0u { continue; }
+                if !possibly_crossed(surface * n * n * n + index * stride[axis] + i * stride[u] + j * stride[v]) { continue; }
                 var crossing = meet(meet(row, parameters_in(b, u, slabs[base + u * n + i])),
                                     parameters_in(b, v, slabs[base + v * n + j]));
                 if best.x <= best.y { crossing.y = min(crossing.y, best.x); }
@@ -185,14 +210,7 @@ fn around(m: f32, r: f32) -> vec2<f32> {
     return vec2<f32>(sub(m, s), add(m, s));
 }
 
-@compute @workgroup_size(8, 8)
-fn pixels(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>) {
-    let across = (frame.width + 7u) / 8u;
-    let number = frame.first + tile.x;
-    let column = (number % across) * 8u + place.x;
-    let row = (number / across) * 8u + place.y;
-    if column >= frame.width || row >= frame.height { return; }
-    let index = row * frame.width + column;
+fn pixel(index: u32) -> vec4<u32> {
     let ray = pixel_ray(index, 1.0);
     var beam: Beam;
     for (var k = 0u; k < 3u; k++) {
@@ -201,26 +219,45 @@ fn pixels(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id) 
     }
     var evaluations = 0u;
     var best = EMPTY;
+    var met = NOTHING;
     for (var k = 0u; k < SURFACES; k++) {
         let t = nearest(k, beam, vec2<f32>(0.0, paper.far), Search(true, ray), false, &evaluations);
-        if t.x <= t.y && (best.x > best.y || t.x < best.x) { best = t; }
+        if t.x <= t.y && (met == NOTHING || t.x < best.x) { best = t; met = k + 1u; }
     }
-    found[index] = vec4<u32>(select(0u, 1u, best.x <= best.y), bitcast<u32>(best.x), bitcast<u32>(best.y), evaluations);
-    atomicAdd(&spent[0], evaluations);
+    return vec4<u32>(met, bitcast<u32>(best.x), bitcast<u32>(best.y), evaluations);
 }
 
-// The point from which shadow beams start, and their parameters.
+@compute @workgroup_size(8, 8)
+fn pixels(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id) place: vec3<u32>,
+          @builtin(local_invocation_index) local: u32) {
+    let across = (frame.width + 7u) / 8u;
+    let number = frame.first + tile.x;
+    let column = (number % across) * 8u + place.x;
+    let row = (number / across) * 8u + place.y;
+    if column < frame.width && row < frame.height {
+        let index = row * frame.width + column;
+        found[index - frame.base] = pixel(index);
+    }
+    sign_off(tile.x, local, seal());
+}
+
+// The point from which shadow beams start: the middle of the section, on the centre ray. The same one for the initial beam and for sub-beams,
+// which are other kernels: so nothing here is left to their compilers.
 fn start(index: u32) -> vec3<f32> {
     let it = found[index];
-    let t = 0.5 * (bitcast<f32>(it.y) + bitcast<f32>(it.z));
-    return frame.eye.xyz + t * pixel_ray(index, 0.0).c;
+    let t = mul(0.5, add(bitcast<f32>(it.y), bitcast<f32>(it.z)));
+    return add3(frame.eye.xyz, mul3(vec3<f32>(t), pixel_ray(frame.base + index, 0.0).c));
 }
 
-// Whether the beam towards the part (column, row) of n x n of the light may be blocked.
-fn possibly_blocked(index: u32, column: u32, row: u32, n: u32, evaluations: ptr<function, u32>) -> bool {
-    let p = start(index);
-    let begin = paper.offset / length(frame.center.xyz - p);
-    if begin > 1.0 { return false; }
+// The offset as a parameter of shadow beams from p, more than 1 where the light is nearer. A choice: what is said of a beam is said of what lies beyond.
+fn offset(p: vec3<f32>) -> f32 {
+    let way = length(frame.center.xyz - p);
+    if way <= paper.offset { return 2.0; }
+    return clamp(paper.offset / way, 0.0, 1.0);
+}
+
+// Whether the beam from p towards the part (column, row) of n x n of the light may be blocked after `begin`.
+fn possibly_blocked(p: vec3<f32>, begin: f32, column: u32, row: u32, n: u32, evaluations: ptr<function, u32>) -> bool {
     // Half a tile is 1/n of half an edge; the tile is enlarged by all roundings.
     let h = 1.0 / f32(n);
     let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
@@ -234,40 +271,54 @@ fn possibly_blocked(index: u32, column: u32, row: u32, n: u32, evaluations: ptr<
     }
     for (var k = 0u; k < SURFACES; k++) {
         let none = vec3<f32>(0.0);
-        let t = nearest(k, beam, vec2<f32>(max(begin, 0.0), 1.0), Search(false, Ray(none, none, none, none, none)), true, evaluations);
+        let t = nearest(k, beam, vec2<f32>(begin, 1.0), Search(false, Ray(none, none, none, none, none)), true, evaluations);
         if t.x <= t.y { return true; }
     }
     return false;
 }
 
 @compute @workgroup_size(64)
-fn initial(@builtin(global_invocation_id) id: vec3<u32>) {
-    let index = frame.first + id.x;
-    if id.x >= frame.count || found[index].x == 0u { return; }
-    if paper.always == 0u {
+fn initial(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let number = 64u * group.x + local;
+    if number < frame.count {
+        let index = frame.first + number;
         var evaluations = 0u;
-        let hidden = possibly_blocked(index, 0u, 0u, 1u, &evaluations);
-        atomicAdd(&spent[1], evaluations);
-        if !hidden { return; }
+        var state = NEAR;
+        if found[index].x != NOTHING {
+            let p = start(index);
+            let begin = offset(p);
+            if begin <= 1.0 {
+                state = ALWAYS;
+                if paper.always == 0u { state = select(FREE, BLOCKED, possibly_blocked(p, begin, 0u, 0u, 1u, &evaluations)); }
+            }
+        }
+        atomicStore(&shade[4u * index], state);
+        atomicStore(&shade[4u * index + 1u], evaluations);
+        atomicStore(&shade[4u * index + 2u], 0u);
+        atomicStore(&shade[4u * index + 3u], 0u);
+        if state >= BLOCKED {
+            let at = atomicAdd(&list.count, 1u);
+            if at < arrayLength(&list.items) { list.items[at] = vec2<u32>(index, frame.series); }
+        }
     }
-    list.items[atomicAdd(&list.count, 1u)] = index;
+    sign_off(group.x, local, seal());
 }
 
+// A thread for each sub-beam of the items of this dispatch.
 @compute @workgroup_size(64)
-fn sub_beams(@builtin(workgroup_id) group: vec3<u32>, @builtin(num_workgroups) groups: vec3<u32>,
-             @builtin(local_invocation_index) local: u32) {
+fn sub_beams(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
     let n = paper.sub_beams;
-    // Counted from the first item of this dispatch, whose host sees to it that the numbers fit.
-    let end = (min(frame.first + frame.count, atomicLoad(&list.count)) - frame.first) * n * n;
-    var total = 0u;
-    for (var number = group.x * 64u + local; number < end; number += groups.x * 64u) {
-        let index = list.items[frame.first + number / (n * n)];
-        let tile = number % (n * n);
-        var evaluations = 0u;
-        if possibly_blocked(index, tile % n, tile / n, n, &evaluations) { atomicAdd(&blocked[index], 1u); }
-        total += evaluations;
+    let number = 64u * group.x + local;
+    if number < frame.count * n * n {
+        let item = list.items[frame.first + number / (n * n)];
+        if item.y == frame.series {
+            let tile = number % (n * n);
+            let p = start(item.x);
+            var evaluations = 0u;
+            if possibly_blocked(p, offset(p), tile % n, tile / n, n, &evaluations) { atomicAdd(&shade[4u * item.x + 2u], 1u); }
+            let before = atomicAdd(&shade[4u * item.x + 3u], evaluations);
+            if before + evaluations < before { atomicAdd(&shade[4u * item.x], 256u); }
+        }
     }
-    // With carry.
-    let before = atomicAdd(&spent[2], total);
-    if before + total < before { atomicAdd(&spent[3], 1u); }
+    sign_off(group.x, local, seal());
 }

@@ -97,7 +97,8 @@ fn pixel(index: u32) -> vec4<u32> {
 }
 
 @compute @workgroup_size(8, 8)
-fn primary(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id) at: vec3<u32>) {
+fn primary(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id) at: vec3<u32>,
+           @builtin(local_invocation_index) local: u32) {
     // Tiles of 8 x 8 pixels: what threads of a group do is much the same.
     let across = (frame.width + 7u) / 8u;
     let number = frame.first + tile.x;
@@ -107,4 +108,5 @@ fn primary(@builtin(workgroup_id) tile: vec3<u32>, @builtin(local_invocation_id)
         let index = row * frame.width + column;
         found[index - frame.base] = pixel(index);
     }
+    sign_off(tile.x, local, region_seal());
 }

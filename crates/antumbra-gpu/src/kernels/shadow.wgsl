@@ -6,14 +6,13 @@
 @group(0) @binding(3) var<storage, read_write> sums: array<atomic<u32>>;
 // The same before this pass: what a pass looks at does not depend on which of its threads come first.
 @group(0) @binding(4) var<storage, read> before: array<u32>;
-// Hits whose light is divided: pixel, and where their beam is open: outside of that stretch of parameters it is proved free.
+// Hits whose light is divided: pixel, series, and where their beam is open: outside of that stretch of parameters it is proved free.
 struct Hits { count: atomic<u32>, items: array<vec4<u32>> }
 @group(0) @binding(5) var<storage, read_write> hits: Hits;
 // Parts of the light that are looked at again: pixel, row << 16 | column, the stretch, and the shares above which it may add, in the units of `sums`.
-struct Part { index: u32, place: u32, first: u32, last: u32, lit: u32, dark: u32, pad0: u32, pad1: u32 }
+struct Part { index: u32, place: u32, first: u32, last: u32, lit: u32, dark: u32, series: u32, pad: u32 }
 struct Parts { count: atomic<u32>, pad0: u32, pad1: u32, pad2: u32, items: array<Part> }
 @group(0) @binding(6) var<storage, read_write> more: Parts;
-@group(0) @binding(7) var<storage, read_write> spent: atomic<u32>;
 struct Work { count: u32, pad0: u32, pad1: u32, pad2: u32, items: array<Part> }
 @group(0) @binding(8) var<storage, read> work: Work;
 
@@ -81,14 +80,14 @@ fn half_plane(k: f32, a: f32, b: f32) -> f32 {
     var q = min(abs(a), abs(b));
     var c = sub(k, mul(8.0 * U, add(abs(k), add(p, q))));
     let s = add(p, q);
-    if c <= -s || p < 1e-25 { return select(0.0, 1.0, c > mul(s, 1.0 + 8.0 * U)); }
+    if c <= -s || p < 1e-25 { return select(f32(0.0), f32(1.0), c > mul(s, 1.0 + 8.0 * U)); }
     if c >= mul(s, 1.0 + 8.0 * U) { return 1.0; }
     if q < p * 1e-5 {
         // A thin triangle counts as missing.
         c = sub(c, mul(q, 1.0 + 8.0 * U));
         q = 0.0;
     }
-    var share = 0.0;
+    var share: f32 = 0.0;
     if abs(c) <= sub(p, q) {
         share = 0.5 + 0.5 * (c / p);
     } else if c < 0.0 {
@@ -116,7 +115,7 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
     var begin: array<f32, STRIPS + 1u>;
     var end: array<f32, STRIPS + 1u>;
     for (var i = 0u; i <= STRIPS; i++) { begin[i] = -1.0; end[i] = 1.0; }
-    var hidden = 0.0;
+    var hidden: f32 = 0.0;
     var swap = false;
     var open = 0u;
     var evaluations = 0u;
@@ -157,12 +156,12 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
                 let top = add(add(bottom, across), e);
                 let hides = front != 0 && inside(k, p);
                 if hides && top < -mul(4.0 * U, add(add(abs(bottom), across), e)) {
-                    atomicAdd(&spent, evaluations);
+                    atomicAdd(&account.evaluations, evaluations);
                     return Shares(0.0, 1.0, 0u, 0u);
                 }
                 // The segments leave to the wrong side.
                 if s < 0 && own && pos == 0u {
-                    atomicAdd(&spent, evaluations);
+                    atomicAdd(&account.evaluations, evaluations);
                     return Shares(0.0, 1.0, 0u, 0u);
                 }
                 settled = s != 0;
@@ -171,7 +170,7 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
                     continue;
                 }
                 if evaluations > MOST {
-                    atomicAdd(&spent, evaluations);
+                    atomicAdd(&account.evaluations, evaluations);
                     // Of surfaces that come later nothing is known.
                     return Shares(0.0, 0.0, select(min(first, pos), from_, SURFACES > 1u), until);
                 }
@@ -208,11 +207,11 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
             if len < frame.units && (pos & (2u * len - 1u)) == 0u && pos + len < until { len = len << 1u; }
         }
     }
-    atomicAdd(&spent, evaluations);
+    atomicAdd(&account.evaluations, evaluations);
     if open == 0u { return Shares(1.0, 0.0, 0u, 0u); }
     if !planes { return Shares(0.0, 0.0, first, last); }
     // Lit points on two lines span a lit trapezoid: the lit part is convex.
-    var area = 0.0;
+    var area: f32 = 0.0;
     for (var i = 0u; i < STRIPS; i++) {
         let x = end[i] - begin[i];
         let y = end[i + 1u] - begin[i + 1u];
@@ -223,15 +222,30 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
     return Shares(share, hidden, first, last);
 }
 
+// The sums begin here: with what is known of the whole light.
+fn begin(index: u32) {
+    var lit = 0u;
+    var dark = 0u;
+    if (found[index].x & 0xffu) == HIT {
+        let shares = look(hit_of(index), vec2<f32>(0.0), vec2<f32>(1.0), 1.0, false, 0u, frame.units);
+        if shares.lit == 1.0 {
+            lit = ONE;
+        } else if shares.dark == 1.0 {
+            dark = ONE;
+        } else {
+            let at = atomicAdd(&hits.count, 1u);
+            if at < arrayLength(&hits.items) { hits.items[at] = vec4<u32>(index, frame.series, shares.first, shares.last); }
+        }
+    }
+    atomicStore(&sums[2u * index], lit);
+    atomicStore(&sums[2u * index + 1u], dark);
+}
+
 @compute @workgroup_size(64)
-fn whole(@builtin(global_invocation_id) id: vec3<u32>) {
-    let index = frame.first + id.x;
-    if id.x >= frame.count || (found[index].x & 0xffu) != HIT { return; }
-    let shares = look(hit_of(index), vec2<f32>(0.0), vec2<f32>(1.0), 1.0, false, 0u, frame.units);
-    if shares.lit == 1.0 { atomicStore(&sums[2u * index], ONE); return; }
-    if shares.dark == 1.0 { atomicStore(&sums[2u * index + 1u], ONE); return; }
-    let at = atomicAdd(&hits.count, 1u);
-    if at < arrayLength(&hits.items) { hits.items[at] = vec4<u32>(index, 0u, shares.first, shares.last); }
+fn whole(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index) local: u32) {
+    let number = 64u * group.x + local;
+    if number < frame.count { begin(frame.first + number); }
+    sign_off(group.x, local, region_seal());
 }
 
 // The light is divided in SIDE x SIDE parts.
@@ -244,10 +258,11 @@ override ASPECT: f32 = 1.0;
 const HOPELESS: f32 = 40.0;
 
 struct Seen { shares: Shares, lit: u32, dark: u32, unknown: f32 }
+const NOTHING = Seen(Shares(0.0, 0.0, 0u, 0u), 0u, 0u, 0.0);
 
 fn part_of(hit: Hit, column: u32, row: u32, first: u32, last: u32) -> Seen {
     // 1 / n by its bits, for n is a power of two: quotients need not be exact.
-    let h = bitcast<f32>((127u - firstTrailingBit(SIDE)) << 23u);
+    let h = half_power(firstTrailingBit(SIDE));
     let m = vec2<f32>(f32(2u * column + 1u) * h - 1.0, f32(2u * row + 1u) * h - 1.0);
     let shares = look(hit, m, vec2<f32>(h), ASPECT, true, first, last);
     // The integer part is rounded down; f32(unit) is exact.
@@ -260,7 +275,8 @@ fn part_of(hit: Hit, column: u32, row: u32, first: u32, last: u32) -> Seen {
 fn again(index: u32, column: u32, row: u32, seen: Seen) {
     let at = atomicAdd(&more.count, 1u);
     if at < arrayLength(&more.items) {
-        more.items[at] = Part(index, (row << 16u) | column, seen.shares.first, seen.shares.last, seen.lit, seen.dark, 0u, 0u);
+        more.items[at] = Part(index, (row << 16u) | column, seen.shares.first, seen.shares.last, seen.lit, seen.dark,
+                              frame.series, 0u);
     }
 }
 
@@ -279,19 +295,24 @@ fn cells(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_inde
     let item = hits.items[frame.first + group.x];
     let column = local % SIDE;
     let row = local / SIDE;
-    let seen = part_of(hit_of(item.x), column, row, item.z, item.w);
-    if seen.unknown > 0.0 {
-        atomicAdd(&unknown_sum, u32(seen.unknown * 1048576.0) + 1u);
-        atomicAdd(&unknown_parts, 1u);
+    var seen = NOTHING;
+    // What another band or light has left here is nobody's.
+    if item.y == frame.series {
+        seen = part_of(hit_of(item.x), column, row, item.z, item.w);
+        if seen.unknown > 0.0 {
+            atomicAdd(&unknown_sum, u32(seen.unknown * 1048576.0) + 1u);
+            atomicAdd(&unknown_parts, 1u);
+        }
+        atomicAdd(&sums[2u * item.x], seen.lit);
+        atomicAdd(&sums[2u * item.x + 1u], seen.dark);
     }
-    atomicAdd(&sums[2u * item.x], seen.lit);
-    atomicAdd(&sums[2u * item.x + 1u], seen.dark);
     workgroupBarrier();
     // Policy: nothing is looked at again where all that is unknown has room; else half of the room is for parts of which little is unknown.
     let sum = f32(atomicLoad(&unknown_sum)) * (1.0 / 1048576.0);
     if sum > ROOM && sum < HOPELESS && seen.unknown * f32(atomicLoad(&unknown_parts)) > 0.5 * ROOM {
         again(item.x, column, row, seen);
     }
+    sign_off(group.x, local, region_seal());
 }
 
 // What a quarter of the part of the four threads before and behind shares.
@@ -307,33 +328,35 @@ fn refine(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_ind
     let number = (group.x * 64u + local) / 4u;
     var item = Part(0u, 0u, 0u, 0u, 0u, 0u, 0u, 0u);
     var wide = false;
-    if number < frame.count {
-        item = work.items[frame.first + number];
+    if number < frame.count { item = work.items[frame.first + number]; }
+    if number < frame.count && item.series == frame.series {
         let known = before[2u * item.index] + before[2u * item.index + 1u];
         wide = f32(ONE - known) > ROOM * f32(ONE / 64u);
     }
     quarters[local] = vec2<u32>(0u);
     let column = 2u * (item.place & 0xffffu) + (local & 1u);
     let row = 2u * (item.place >> 16u) + ((local >> 1u) & 1u);
-    var seen = Seen(Shares(0.0, 0.0, 0u, 0u), 0u, 0u, 0.0);
+    var seen = NOTHING;
     if wide {
         seen = part_of(hit_of(item.index), column, row, item.first, item.last);
         quarters[local] = vec2<u32>(seen.lit, seen.dark);
     }
     workgroupBarrier();
-    if !wide { return; }
-    let first = local & ~3u;
-    let sum = quarters[first] + quarters[first + 1u] + quarters[first + 2u] + quarters[first + 3u];
-    let floors = vec2<u32>(item.lit, item.dark);
-    let best = max(sum, floors);
-    if local == first {
-        atomicAdd(&sums[2u * item.index], best.x - floors.x);
-        atomicAdd(&sums[2u * item.index + 1u], best.y - floors.y);
+    if wide {
+        let first = local & ~3u;
+        let sum = quarters[first] + quarters[first + 1u] + quarters[first + 2u] + quarters[first + 3u];
+        let floors = vec2<u32>(item.lit, item.dark);
+        let best = max(sum, floors);
+        if local == first {
+            atomicAdd(&sums[2u * item.index], best.x - floors.x);
+            atomicAdd(&sums[2u * item.index + 1u], best.y - floors.y);
+        }
+        // Policy: a part of 32 x 32 has a quarter of the tolerance of 1/255; where nothing at all was proved of any quarter, smaller ones will not help.
+        if seen.unknown > 0.03 && sum.x + sum.y > 0u {
+            seen.lit += best.x - sum.x;
+            seen.dark += best.y - sum.y;
+            again(item.index, column, row, seen);
+        }
     }
-    // Policy: a part of 32 x 32 has a quarter of the tolerance of 1/255; where nothing at all was proved of any quarter, smaller ones will not help.
-    if seen.unknown > 0.03 && sum.x + sum.y > 0u {
-        seen.lit += best.x - sum.x;
-        seen.dark += best.y - sum.y;
-        again(item.index, column, row, seen);
-    }
+    sign_off(group.x, local, region_seal());
 }

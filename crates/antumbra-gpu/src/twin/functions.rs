@@ -1,7 +1,6 @@
 //! The arithmetic of `functions.wgsl`, operation by operation.
 #![allow(clippy::approx_constant, clippy::excessive_precision, reason = "the literals of the kernels")]
-use super::slope::{TwinSlope, b_mul};
-use super::{R, Twin, U, reciprocal};
+use super::{R, Twin, TwinSlope, U, b_mul, reciprocal};
 use std::cell::Cell;
 
 thread_local! {

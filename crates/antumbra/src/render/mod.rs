@@ -30,7 +30,7 @@ mod window;
 pub use crew::Clock;
 pub(crate) use crew::Crew;
 pub use frame::{Frame, LightPlanes};
-pub use given::{Given, GivenPixel, Question};
+pub use given::{Given, GivenPixel, Question, Traced, TracedLight, TracedPixel};
 pub use overlay::{Legend, Overlay};
 pub use renderer::Renderer;
 pub use spec::{Error, Method, RenderSpec, RunSpec};

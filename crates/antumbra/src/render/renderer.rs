@@ -4,7 +4,7 @@ use super::by_paper;
 use super::by_proof::{self, BLOCK};
 use super::crease;
 use super::crew::{Clock, Crew, std_clock};
-use super::given::{Given, Question};
+use super::given::{Given, Traced};
 use super::spare::Spare;
 use super::state::{self, StateError, Stopped};
 use super::task::Task;
@@ -28,14 +28,15 @@ use std::time::Duration;
 /// budgets, and whether it was drawn at one go or saved and resumed.
 pub struct Renderer {
     pub(super) task: Task,
-    spec: RenderSpec,
+    pub(super) spec: RenderSpec,
     /// Whether hits are on parts of unions. Once they are, they are so for every method.
     divided: bool,
     crew: Crew,
     clock: Clock,
     grids: Vec<Grid>,
     pub(super) book: Book,
-    given: Option<Given>,
+    pub(super) given: Option<Given>,
+    pub(super) traced: Option<Traced>,
     pub(super) stage: Stage,
     part: Part,
     pub(super) next_tile: usize,
@@ -99,7 +100,23 @@ impl Renderer {
         let (stage, stop) = (Stage::Grid, Arc::default());
         let spare = Spare::default();
         let (grids, clock, part) = (Vec::new(), std_clock, Part::WHOLE);
-        Ok(Self { task, spec, divided, crew, clock, grids, book, given: None, stage, part, next_tile: 0, stop, spare })
+        let (given, traced) = (None, None);
+        Ok(Self {
+            task,
+            spec,
+            divided,
+            crew,
+            clock,
+            grids,
+            book,
+            given,
+            traced,
+            stage,
+            part,
+            next_tile: 0,
+            stop,
+            spare,
+        })
     }
 
     /// Writes everything that is known, so that [`Renderer::resume`] can go on with it: some 50 to 300 bytes for each
@@ -194,31 +211,6 @@ impl Renderer {
         (self.clock)().saturating_sub(begin)
     }
 
-    /// What the certified method is to prove: for those who can prove some of it faster.
-    #[must_use]
-    pub fn question(&self) -> Question<'_> {
-        Question {
-            surfaces: self.task.surfaces(),
-            film: self.task.film,
-            lights: self.task.lights.iter().map(|l| l.rect).collect(),
-            tolerance: self.task.tolerance.width,
-        }
-    }
-
-    /// Takes over what has been proved of the [`question`](Self::question); only the rest will be looked for. It is not part of what
-    /// is saved. Tells whether it was of use: only the certified method has use for it, only before it begins, not in bands, and only if
-    /// it speaks of this picture.
-    pub fn give(&mut self, given: Given) -> bool {
-        let pixels = self.task.film.width * self.task.film.height;
-        let begins = self.stage == Stage::Grid && self.task.window.is_whole();
-        let wanted = begins && self.task.method == Method::Certified;
-        let useful = wanted && given.fits(pixels, self.task.lights.len());
-        if useful {
-            self.given = Some(given);
-        }
-        useful
-    }
-
     /// The scene that is drawn.
     #[must_use]
     pub fn scene(&self) -> &Scene {
@@ -238,7 +230,7 @@ impl Renderer {
     /// statistics; everything about shadows begins anew. A grid is built if the method needs one. Panics where it draws in bands.
     pub fn restart_shadows(&mut self, method: Method) {
         assert!(self.task.window.is_whole(), "shadows of a whole picture");
-        (self.task.method, self.spec.method) = (method, method);
+        (self.task.method, self.spec.method, self.traced) = (method, method, None);
         self.book.restart_shadows(method);
         self.next_tile = 0;
         if self.stage != Stage::Grid {
@@ -334,8 +326,10 @@ impl Renderer {
     fn step(&mut self, deadline: Duration) {
         match self.stage {
             Stage::Grid => {
-                if matches!(self.task.method, Method::Paper(_)) {
-                    self.build_grids();
+                match (self.task.method, &self.traced) {
+                    (Method::Paper(_), None) => self.build_grids(),
+                    (_, Some(traced)) => self.book.stats.grid_evaluations = traced.grid_evaluations,
+                    (Method::Certified, None) => {}
                 }
                 self.stage = Stage::Primary;
                 return;
@@ -384,8 +378,12 @@ impl Renderer {
                 found
             }
             Method::Paper(_) => {
-                let rays = this.task.method.uses_rays();
-                (by_paper::primary(&this.task, &this.grids, this.pixels(turn), rays), Occupancy::default())
+                let pixels = this.pixels(turn);
+                let found = match &this.traced {
+                    Some(traced) => by_paper::traced_primary(&this.task, traced, pixels),
+                    None => by_paper::primary(&this.task, &this.grids, pixels, this.task.method.uses_rays()),
+                };
+                (found, Occupancy::default())
             }
         });
         let done = found.len();
@@ -412,7 +410,10 @@ impl Renderer {
             }
             Method::Paper(method) => {
                 let hits = this.pixels(turn).filter_map(|index| Some((index, this.book.hit(index)?.point)));
-                by_paper::shadows(&this.task, &this.grids, method, hits)
+                match &this.traced {
+                    Some(traced) => by_paper::traced_shadows(&this.task, traced, hits.map(|(index, _)| index)),
+                    None => by_paper::shadows(&this.task, &this.grids, method, hits),
+                }
             }
         });
         let done = found.len();

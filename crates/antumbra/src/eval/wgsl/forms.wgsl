@@ -15,11 +15,6 @@
 // 64 * 2^-126 < F together. In sums all costs together are at most 12 * 2^-126, and t >= 2^-99 has u t >= 2^-122.
 // Overflow: excluded beforehand on the CPU (`wgsl::Reach`): no size passes 2^120. So there is no NaN either.
 
-const U: f32 = 1.1920929e-7;          // 2^-23
-const F: f32 = 7.888609e-31;          // 2^-100
-
-fn fence(x: f32) -> f32 { return bitcast<f32>(bitcast<u32>(x) ^ runtime_zero()); }
-fn fence3(x: vec3<f32>) -> vec3<f32> { return bitcast<vec3<f32>>(bitcast<vec3<u32>>(x) ^ vec3<u32>(runtime_zero())); }
 fn add(x: f32, y: f32) -> f32 { return fence(x + y); }
 fn sub(x: f32, y: f32) -> f32 { return fence(x - y); }
 fn mul(x: f32, y: f32) -> f32 { return fence(x * y); }
@@ -133,7 +128,7 @@ fn f_range(x: Form) -> vec2<f32> {
 }
 // About 1/c, c > 0: by its bits (12 % off), each step squares the error. A guess, never a proof.
 fn reciprocal(c: f32) -> f32 {
-    var q = bitcast<f32>(0x7ef311c7u - bitcast<u32>(c));
+    var q = guess(c);
     q = mul(q, sub(2.0, mul(c, q)));
     q = mul(q, sub(2.0, mul(c, q)));
     return mul(q, sub(2.0, mul(c, q)));

@@ -4,8 +4,10 @@
 //! function from its user, `fn runtime_zero() -> u32`, which must return 0 in a way that no compiler can see. [`function`] writes
 //! a tape as calls of that arithmetic; [`Reach`] proves that nothing in it overflows, without which nothing holds.
 mod reach;
+mod width;
 
 pub use reach::Reach;
+pub use width::Width;
 
 use crate::expr::{Binary, Unary};
 use crate::tape::{Op, Tape};
@@ -14,7 +16,7 @@ use antumbra_interval::round::sub_up;
 use std::fmt::Write;
 
 /// Balls, affine forms and slopes.
-pub const FORMS: &str = include_str!("forms.wgsl");
+pub const FORMS: &str = concat!(include_str!("single.wgsl"), include_str!("forms.wgsl"));
 /// Intervals.
 pub const INTERVALS: &str = include_str!("intervals.wgsl");
 /// Quotients, roots and the elementary functions that have an enclosure here: over balls, forms and slopes; needs [`FORMS`].
@@ -48,6 +50,9 @@ pub enum Refusal {
     /// A straight-line function of that many operations is too long for the compilers of drivers.
     #[error("{0} operations are too many for one kernel")]
     Long(usize),
+    /// Quotients, roots, functions and intervals have no kernels in 64 bits.
+    #[error("it has kernels in 32 bits only")]
+    Single,
     /// No formula is known, only a function of the user's own.
     #[error("the surface is not given by a formula")]
     NoFormula,
@@ -79,6 +84,17 @@ impl Kind {
 /// # Errors
 /// [`Refusal::Operator`], [`Refusal::Long`]. Overflow is [`Reach`]'s business.
 pub fn function(tape: &Tape, name: &str, kind: Kind) -> Result<String, Refusal> {
+    function_of(tape, name, kind, Width::Single)
+}
+
+/// The same for forms and slopes of any width.
+///
+/// # Errors
+/// As for [`function`]; functions, quotients and roots are there in 32 bits only, as are intervals.
+pub fn function_of(tape: &Tape, name: &str, kind: Kind, width: Width) -> Result<String, Refusal> {
+    if width == Width::Double && (kind == Kind::Interval || needs_functions(tape)) {
+        return Err(Refusal::Single);
+    }
     let clauses = tape.clauses();
     if clauses.len() > LONGEST {
         return Err(Refusal::Long(clauses.len()));
@@ -97,15 +113,15 @@ pub fn function(tape: &Tape, name: &str, kind: Kind) -> Result<String, Refusal> 
         let (a, b) = (operand(clause.a), operand(clause.b));
         let known = |v: usize| if kind == Kind::Interval { None } else { constant.get(v).copied().flatten() };
         let value = match clause.op {
-            Op::Constant(k) => literal(kind, tape.constants()[k as usize]),
+            Op::Constant(k) => literal((kind, width), tape.constants()[k as usize]),
             Op::Axis(axis) => ["x", "y", "z"][axis as usize].to_owned(),
             Op::Unary(Unary::Neg) => format!("{p}_neg(v{a})"),
             Op::Unary(Unary::Abs) => format!("{p}_abs(v{a})"),
             Op::Unary(Unary::Sqr) => format!("{p}_sqr(v{a})"),
             Op::Unary(op) => format!("{p}_{}(v{a})", unary(op)?),
-            Op::Powi(n) => power(&mut out, kind, i, a, n),
-            Op::Binary(Binary::Pow) => real_power(p, a, constant.get(b).copied().flatten())?,
-            Op::Binary(op) => binary(p, op, (a, known(a)), (b, known(b)))?,
+            Op::Powi(n) => power(&mut out, (kind, width), i, a, n),
+            Op::Binary(Binary::Pow) => real_power((p, width), a, constant.get(b).copied().flatten())?,
+            Op::Binary(op) => binary((p, width), op, (a, known(a)), (b, known(b)))?,
         };
         writeln!(out, "    let v{i} = {value};").expect("strings take any text");
         constant.push(if let Op::Constant(k) = clause.op { Some(tape.constants()[k as usize]) } else { None });
@@ -138,10 +154,10 @@ fn unary(op: Unary) -> Result<&'static str, Refusal> {
 }
 
 /// A power with a constant real exponent, not 0; its sign must be known.
-fn real_power(p: &str, a: usize, exponent: Option<Interval>) -> Result<String, Refusal> {
+fn real_power((p, width): (&str, Width), a: usize, exponent: Option<Interval>) -> Result<String, Refusal> {
     let positive = |k: Interval| {
-        let (m, r) = ball(k);
-        (m > r).then(|| format!("{p}_real(v{a}, {}, {})", number(m), number(r)))
+        let (m, r) = width.ball(k);
+        (m > r).then(|| format!("{p}_real(v{a}, {}, {})", width.number(m), width.number(r)))
     };
     let inverse = |k: Interval| Some(format!("{p}_recip({})", positive(-k)?));
     let found = exponent.and_then(|k| positive(k).or_else(|| inverse(k)));
@@ -150,18 +166,18 @@ fn real_power(p: &str, a: usize, exponent: Option<Interval>) -> Result<String, R
 
 /// A sum, difference or product with a constant has cheaper forms.
 fn binary(
-    p: &str,
+    (p, width): (&str, Width),
     op: Binary,
     (a, ka): (usize, Option<Interval>),
     (b, kb): (usize, Option<Interval>),
 ) -> Result<String, Refusal> {
     Ok(match (op, ka, kb) {
-        (Binary::Add, _, Some(k)) => shifted(p, a, k),
-        (Binary::Sub, _, Some(k)) => shifted(p, a, -k),
-        (Binary::Add, Some(k), _) => shifted(p, b, k),
-        (Binary::Mul, _, Some(k)) => scaled(p, a, k),
-        (Binary::Mul, Some(k), _) => scaled(p, b, k),
-        (Binary::Div, _, Some(k)) if !k.possibly_zero() => scaled(p, a, Interval::ONE / k),
+        (Binary::Add, _, Some(k)) => shifted((p, width), a, k),
+        (Binary::Sub, _, Some(k)) => shifted((p, width), a, -k),
+        (Binary::Add, Some(k), _) => shifted((p, width), b, k),
+        (Binary::Mul, _, Some(k)) => scaled((p, width), a, k),
+        (Binary::Mul, Some(k), _) => scaled((p, width), b, k),
+        (Binary::Div, _, Some(k)) if !k.possibly_zero() => scaled((p, width), a, Interval::ONE / k),
         (Binary::Div, ..) => format!("{p}_div(v{a}, v{b})"),
         (Binary::Add, ..) => format!("{p}_add(v{a}, v{b})"),
         (Binary::Sub, ..) => format!("{p}_sub(v{a}, v{b})"),
@@ -174,26 +190,26 @@ fn binary(
     })
 }
 
-fn shifted(p: &str, a: usize, k: Interval) -> String {
-    let (m, r) = ball(k);
-    format!("{p}_addk(v{a}, {}, {})", number(m), number(r))
+fn shifted((p, width): (&str, Width), a: usize, k: Interval) -> String {
+    let (m, r) = width.ball(k);
+    format!("{p}_addk(v{a}, {}, {})", width.number(m), width.number(r))
 }
 
-fn scaled(p: &str, a: usize, k: Interval) -> String {
-    match exact(k) {
-        Some(k) => format!("{p}_scale(v{a}, {})", number(k)),
+fn scaled((p, width): (&str, Width), a: usize, k: Interval) -> String {
+    match width.exact(k) {
+        Some(k) => format!("{p}_scale(v{a}, {})", width.number(k)),
         None => {
-            let (m, r) = ball(k);
-            format!("{p}_mulk(v{a}, {}, {})", number(m), number(r))
+            let (m, r) = width.ball(k);
+            format!("{p}_mulk(v{a}, {}, {})", width.number(m), width.number(r))
         }
     }
 }
 
 /// Powers by squaring, from the highest bit down; the steps before the last are written as statements.
-fn power(out: &mut String, kind: Kind, i: usize, a: usize, n: i32) -> String {
+fn power(out: &mut String, (kind, width): (Kind, Width), i: usize, a: usize, n: i32) -> String {
     let p = kind.prefix();
     if n == 0 {
-        return literal(kind, Interval::ONE);
+        return literal((kind, width), Interval::ONE);
     }
     let inverse = |value: String| if n < 0 { format!("{p}_recip({value})") } else { value };
     let n = n.unsigned_abs();
@@ -213,15 +229,15 @@ fn power(out: &mut String, kind: Kind, i: usize, a: usize, n: i32) -> String {
 }
 
 /// A constant as a number of the kind.
-fn literal(kind: Kind, k: Interval) -> String {
+fn literal((kind, width): (Kind, Width), k: Interval) -> String {
     match kind {
         Kind::Interval => {
             let [lo, hi] = outward(k);
-            format!("i_const({}, {})", number(lo), number(hi))
+            format!("i_const({}, {})", width.number(lo.into()), width.number(hi.into()))
         }
         Kind::Form | Kind::Slope => {
-            let (m, r) = ball(k);
-            format!("{}_const({}, {})", kind.prefix(), number(m), number(r))
+            let (m, r) = width.ball(k);
+            format!("{}_const({}, {})", kind.prefix(), width.number(m), width.number(r))
         }
     }
 }
@@ -258,11 +274,6 @@ fn up(r: f64) -> f32 {
         _ if v > 0.0 => f32::MIN_POSITIVE,
         _ => 0.0,
     }
-}
-
-/// Its bits: no reader of decimals is to be trusted.
-fn number(v: f32) -> String {
-    format!("bitcast<f32>(0x{:08x}u)", v.to_bits())
 }
 
 fn operator(op: Unary) -> &'static str {
