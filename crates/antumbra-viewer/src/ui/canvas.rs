@@ -8,6 +8,8 @@ use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, RichText, Sense, S
 const MOST: f32 = 2_000_000.0;
 /// Points on both sides of the line at which it is taken by a hand, and around the handle of a light.
 const GRIP: f32 = 7.0;
+/// Points of width from which a legend and what is told of a pixel stand side by side.
+const ROOMY: f32 = 560.0;
 
 impl App {
     pub(super) fn canvas(&mut self, ui: &mut egui::Ui) {
@@ -200,15 +202,19 @@ impl App {
         let Some(image) = self.sides.first().and_then(Side::best).filter(|image| !image.legend.is_empty()) else {
             return;
         };
+        // What is told of a pixel stands at the left below: in a narrow picture there is no room beside it.
+        let pivot = if rect.width() < ROOMY { Align2::RIGHT_TOP } else { Align2::RIGHT_BOTTOM };
         egui::Area::new(egui::Id::unique("legend"))
-            .fixed_pos(rect.right_bottom() + Vec2::new(-12.0, -12.0))
-            .pivot(Align2::RIGHT_BOTTOM)
+            .fixed_pos(pivot.pos_in_rect(&rect.shrink(12.0)))
+            .pivot(pivot)
             .interactable(false)
             .show(ui.ctx(), |ui| {
                 theme::float().show(ui, |ui| {
                     ui.spacing_mut().item_spacing.y = 2.0;
+                    // Never wider than the picture.
+                    ui.set_max_width((rect.width() - 48.0).max(40.0));
                     for Kind { color: [r, g, b], text, count } in image.legend.iter().filter(|kind| kind.count > 0) {
-                        ui.horizontal(|ui| {
+                        ui.horizontal_wrapped(|ui| {
                             let (square, _) = ui.allocate_exact_size(Vec2::splat(11.0), Sense::hover());
                             ui.painter().rect_filled(square, 3.0, Color32::from_rgb(*r, *g, *b));
                             ui.label(RichText::new(text).small());
