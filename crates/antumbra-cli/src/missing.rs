@@ -11,7 +11,7 @@ use antumbra::scene;
 use crate::{failure::Usage, import, values::likeness};
 
 /// From this likeness on a name may be the one that was meant.
-const NEAR: f64 = 0.8;
+const NEAR: f64 = 0.85;
 /// Most names that are offered.
 const MOST: usize = 3;
 
@@ -42,8 +42,10 @@ pub(crate) fn message(text: &str, formula: Option<&str>) -> Usage {
     }
     let near: Vec<String> = near(path, folder).iter().map(|name| format!("`{name}`")).collect();
     words += &match near.split_last() {
-        None => "\n`antumbra info` lists the presets and the gallery; `antumbra scene new FILE.toml` writes a scene file"
-            .to_owned(),
+        None => {
+            "\n`antumbra info` lists the presets and the gallery; `antumbra scene new FILE.toml` writes a scene file"
+                .to_owned()
+        }
         Some((last, [])) => format!("\ndid you mean {last}?"),
         Some((last, others)) => format!("\ndid you mean {} or {last}?", others.join(", ")),
     };
@@ -96,7 +98,10 @@ mod tests {
         let first = format!("did you mean `{}`", at("rings.toml"));
         assert!(words.contains(&first) && !words.contains(".png") && !words.contains("zebra"), "{words}");
         let Usage(words) = message("nosuch/boy.tmol", Some("`.` has no meaning here\n  |"));
-        assert!(words.contains("not even a folder `nosuch`, and it is no formula: `.` has no meaning here\n"), "{words}");
+        assert!(
+            words.contains("not even a folder `nosuch`, and it is no formula: `.` has no meaning here\n"),
+            "{words}"
+        );
         assert!(words.ends_with("did you mean `boy`?"), "{words}");
         let Usage(words) = message("qqqqq.toml", None);
         assert!(words.contains("antumbra info"), "{words}");

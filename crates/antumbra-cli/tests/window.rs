@@ -333,7 +333,9 @@ fn where_wgpu_has_no_adapter_opengl_draws_the_window() {
 fn where_nothing_draws_it_says_so() {
     let Some((_server, display)) = hidden(&["-extension", "GLX"]) else { return };
     let mut command = view(Some(&display), &["chubs"]);
-    without_vulkan(&mut command).env("__EGL_VENDOR_LIBRARY_FILENAMES", "/no/driver.json").env("LIBGL_DRIVERS_PATH", "/no");
+    without_vulkan(&mut command)
+        .env("__EGL_VENDOR_LIBRARY_FILENAMES", "/no/driver.json")
+        .env("LIBGL_DRIVERS_PATH", "/no");
     let mut child = Process(command.spawn().unwrap());
     let begun = Instant::now();
     let status = loop {

@@ -159,13 +159,7 @@ fn found_note(path: &Path) -> Option<String> {
 }
 
 /// Makes one file of all frames.
-fn assemble(
-    container: Container,
-    film: &Film,
-    pattern: &Pattern,
-    sink: &mut Sink,
-    progress: &Progress,
-) -> Result<()> {
+fn assemble(container: Container, film: &Film, pattern: &Pattern, sink: &mut Sink, progress: &Progress) -> Result<()> {
     let n = film.animation.frames();
     let still = |k: usize| {
         let path = pattern.file(k);

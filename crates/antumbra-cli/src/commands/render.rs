@@ -10,8 +10,8 @@ use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::{
-    End, animate, deadline, device, frame_bytes, json_sink, json_text, legend_left_out, picture_bytes, print_json, pursue,
-    record::FrameRecord, spent,
+    End, animate, deadline, device, frame_bytes, json_sink, json_text, legend_left_out, picture_bytes, print_json,
+    pursue, record::FrameRecord, spent,
 };
 use crate::{
     bands::{self, Rows},

@@ -74,7 +74,10 @@ fn files_that_are_not_there() {
     said("rigns.toml", "error: there is no file `rigns.toml`\ndid you mean `rings.toml`?\n");
     said("rings.tml", "there is no file `rings.tml`, and it is no formula: `.` has no meaning here\ndid you mean");
     said("boy.tmol", "did you mean `boy`?");
-    said("nosuch/rings.toml", "there is no file `nosuch/rings.toml`, not even a folder `nosuch`\ndid you mean `rings.toml`?");
+    said(
+        "nosuch/rings.toml",
+        "there is no file `nosuch/rings.toml`, not even a folder `nosuch`\ndid you mean `rings.toml`?",
+    );
     said("nosuch/rings", "not even a folder `nosuch`, and it is no formula: ");
     said("rings.toml/a.vm", "there is no file `rings.toml/a.vm`, not even a folder `rings.toml`");
     said("x^2 + y.z", "1 | x^2 + y.z");

@@ -203,7 +203,19 @@ fn overlays_have_a_legend_or_say_why_not() {
     assert_eq!(rows("40", "small.png"), ([40, 40], true));
     let ([width, height], said) = rows("256", "large.png");
     assert!(width == 256 && height > 300 && !said, "{width} x {height}");
-    let film = ["render", "sphere", "--overlay", "verdict", "--size", "256x200", "--turntable", "--frames", "2", "-o", "o.gif"];
+    let film = [
+        "render",
+        "sphere",
+        "--overlay",
+        "verdict",
+        "--size",
+        "256x200",
+        "--turntable",
+        "--frames",
+        "2",
+        "-o",
+        "o.gif",
+    ];
     bench.antumbra(&film).assert().success();
     let size = [256_u16, 200 + 116].map(u16::to_le_bytes);
     assert_eq!(fs::read(bench.file("o.gif")).unwrap()[6..10], *size.as_flattened(), "the legend is in the film");
@@ -217,7 +229,8 @@ fn info_names_presets_and_methods() {
     }
     let text = String::from_utf8_lossy(&result.get_output().stdout).into_owned();
     for name in antumbra::scene::names() {
-        let lines = text.lines().filter(|line| line.strip_prefix("  ").is_some_and(|l| l.split(' ').next() == Some(name)));
+        let lines =
+            text.lines().filter(|line| line.strip_prefix("  ").is_some_and(|l| l.split(' ').next() == Some(name)));
         assert_eq!(lines.count(), 1, "{name}");
     }
 }

@@ -8,8 +8,6 @@ use eframe::egui::{self, Align2, Color32, FontId, Pos2, Rect, RichText, Sense, S
 const MOST: f32 = 2_000_000.0;
 /// Points on both sides of the line at which it is taken by a hand, and around the handle of a light.
 const GRIP: f32 = 7.0;
-/// Points of width from which a legend and what is told of a pixel stand side by side.
-const ROOMY: f32 = 560.0;
 
 impl App {
     pub(super) fn canvas(&mut self, ui: &mut egui::Ui) {
@@ -202,11 +200,10 @@ impl App {
         let Some(image) = self.sides.first().and_then(Side::best).filter(|image| !image.legend.is_empty()) else {
             return;
         };
-        // What is told of a pixel stands at the left below: in a narrow picture there is no room beside it.
-        let pivot = if rect.width() < ROOMY { Align2::RIGHT_TOP } else { Align2::RIGHT_BOTTOM };
+        // What is told of a pixel stands below, and often there is no room beside it.
         egui::Area::new(egui::Id::unique("legend"))
-            .fixed_pos(pivot.pos_in_rect(&rect.shrink(12.0)))
-            .pivot(pivot)
+            .fixed_pos(rect.right_top() + Vec2::new(-12.0, 12.0))
+            .pivot(Align2::RIGHT_TOP)
             .interactable(false)
             .show(ui.ctx(), |ui| {
                 theme::float().show(ui, |ui| {
@@ -216,7 +213,10 @@ impl App {
                     for Kind { color: [r, g, b], text, count } in image.legend.iter().filter(|kind| kind.count > 0) {
                         ui.horizontal_wrapped(|ui| {
                             let (square, _) = ui.allocate_exact_size(Vec2::splat(11.0), Sense::hover());
-                            ui.painter().rect_filled(square, 3.0, Color32::from_rgb(*r, *g, *b));
+                            // Dark colours have an outline.
+                            let line = Stroke::new(1.0, theme::FAINT.gamma_multiply(0.5));
+                            let color = Color32::from_rgb(*r, *g, *b);
+                            ui.painter().rect(square, 3.0, color, line, egui::StrokeKind::Inside);
                             ui.label(RichText::new(text).small());
                             ui.label(RichText::new(count.to_string()).small().color(theme::FAINT));
                         });

@@ -19,8 +19,12 @@ impl App {
         let name: String =
             self.model.document().name.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect();
         let path = format!("{}.png", if name.is_empty() { "picture" } else { &name });
-        self.form =
-            Some(ExportForm { path, size: self.pixels.map(|n| (2 * n).min(MOST_SIDE)), deep: false, overlay: self.overlay });
+        self.form = Some(ExportForm {
+            path,
+            size: self.pixels.map(|n| (2 * n).min(MOST_SIDE)),
+            deep: false,
+            overlay: self.overlay,
+        });
     }
 
     pub(super) fn export_window(&mut self, context: &egui::Context) {

@@ -201,13 +201,7 @@ impl Book {
 
     /// Colour of a pixel that shows one hit, or nothing. `visible` tells which fraction of a light reaches it; before that is known
     /// it is lit.
-    fn color(
-        &self,
-        task: &Task,
-        index: usize,
-        hit: Option<&Hit>,
-        visible: &dyn Fn(usize) -> Option<f64>,
-    ) -> [f32; 3] {
+    fn color(&self, task: &Task, index: usize, hit: Option<&Hit>, visible: &dyn Fn(usize) -> Option<f64>) -> [f32; 3] {
         let (column, row) = task.place(index);
         let backdrop = shade::backdrop(&task.scene.backdrop, &task.film, column as f64 + 0.5, row as f64 + 0.5);
         let Some(hit) = hit else { return backdrop.map(|c| c as f32) };

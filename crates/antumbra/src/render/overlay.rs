@@ -131,7 +131,8 @@ impl Frame {
         const STEPS: usize = 17;
         let mut entries: Vec<Entry> = (0..STEPS)
             .map(|e| {
-                let x = e as f64 / (STEPS - 1) as f64;
+                // Most pixels are on the first steps: those differ more.
+                let x = (e as f64 / (STEPS - 1) as f64).sqrt();
                 let ramp = |from: f64, to: f64| (255.0 * ((x - from) / (to - from)).clamp(0.0, 1.0)) as u8;
                 (
                     [ramp(0.1, 0.7), ramp(0.35, 1.0), ramp(-0.3, 0.5) / 2 + ramp(0.8, 1.0) / 2],
