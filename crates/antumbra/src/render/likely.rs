@@ -3,10 +3,13 @@
 //! Where f has a kink that runs along the surface, as a smooth union has, brackets of single hits stay open, often at [0, 1]. Their
 //! middle would stand out as a speck; the light of the hits beside is what one sees there, as far as the bracket allows it.
 use super::Frame;
+use super::by_proof::BLOCK;
 use super::hits::Hits;
 
 /// How far it looks around, in pixels.
 const REACH: usize = 4;
+// A picture in bands holds a row of tiles around what it finishes: edges look one pixel further.
+const _: () = assert!(REACH < BLOCK);
 /// Cosine between the normals of hits that are of one smooth surface.
 const SMOOTH: f64 = 0.9;
 
