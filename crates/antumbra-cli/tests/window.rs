@@ -231,6 +231,12 @@ fn difference(a: &Shot, b: &Shot) -> f64 {
     a.iter().zip(&b).filter(differs).count() as f64 / a.len() as f64
 }
 
+/// Whether the bar below is full and green: then nothing changes any more but by a hand.
+fn finished(shot: &Shot) -> bool {
+    let end = region(shot, &(140..156, 800..804));
+    end.iter().all(|c| c.iter().zip([142, 198, 142]).all(|(a, b)| a.abs_diff(b) < 12))
+}
+
 /// Whether something is written in the colour of errors.
 fn complains(shot: &Shot) -> bool {
     // The brightest parts of the letters.
@@ -368,10 +374,11 @@ fn session(display: &str, whole: bool) -> Outcome<()> {
         sleep(Duration::from_millis(100));
     };
     let rich = |shot: &Shot| colours(shot) > 60 && surface(shot) > 0.05;
-    let first = screen.until("the first picture", rich)?;
+    let first = screen.until("the first picture", |shot| rich(shot) && finished(shot))?;
     screen.x.set_input_focus(InputFocus::POINTER_ROOT, window, x11rb::CURRENT_TIME)?.check()?;
     screen.drag([600, 400], [760, 360])?;
-    let turned = screen.until("another side of it", |shot| rich(shot) && difference(&first, shot) > 0.05)?;
+    let turned =
+        screen.until("another side of it", |shot| rich(shot) && finished(shot) && difference(&first, shot) > 0.05)?;
     if whole {
         save(&first, "first");
         save(&turned, "turned");
