@@ -12,6 +12,7 @@ mod documents;
 mod failure;
 mod import;
 mod interrupt;
+mod missing;
 mod options;
 mod output;
 mod progress;

@@ -2,7 +2,10 @@
 
 use std::{
     fs,
-    io::Read,
+    io::{
+        ErrorKind::{NotADirectory, NotFound},
+        Read,
+    },
     path::{Path, PathBuf},
     sync::Arc,
     thread,
@@ -22,7 +25,7 @@ use crate::{
     animation::{self, Film},
     args::{AuditArgs, CompareArgs, GalleryArgs, LookArgs, PaperArgs, RenderArgs, SpecArgs},
     failure::Usage,
-    import,
+    import, missing,
     values::{self, Device},
 };
 
@@ -344,6 +347,12 @@ fn format_of(path: &Path, depth: Depth) -> Result<Format> {
         Some("png") => Ok(Format::Png(depth)),
         Some("exr") => Ok(Format::Exr),
         _ if path.is_dir() => Ok(Format::Png(depth)),
+        Some("gif" | "apng" | "mp4") => Err(Usage(format!(
+            "`{}` holds moving pictures, and nothing moves: say what, with --turntable or --animate NAME=FROM:TO, and --frames N; \
+             a still picture ends in .png or .exr",
+            path.display()
+        ))
+        .into()),
         _ => {
             let message = format!("`{}` has no format that is known: end it in .png or .exr", path.display());
             Err(Usage(message).into())
@@ -351,7 +360,8 @@ fn format_of(path: &Path, depth: Depth) -> Result<Format> {
     }
 }
 
-/// A preset or a surface of the gallery if there is one of that name, else a formula; what is neither but looks like a name is a misspelt preset.
+/// A preset or a surface of the gallery if there is one of that name, else a formula; what is neither but looks like a name is a misspelt
+/// preset, and what looks like a path a misspelt file.
 pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
     if text == "-" {
         let mut formula = String::new();
@@ -364,18 +374,26 @@ pub(crate) fn find_scene(text: &str) -> Result<NamedScene> {
         }
         return from_formula(formula.trim_end());
     }
-    if text.ends_with(".toml") {
-        return from_file(Path::new(text));
-    }
-    if import::is_known(Path::new(text)) {
-        return import::from_file(Path::new(text));
+    let path = Path::new(text);
+    let scene_file = text.ends_with(".toml");
+    if scene_file || import::is_known(path) {
+        let nothing = fs::metadata(path).is_err_and(|e| matches!(e.kind(), NotFound | NotADirectory));
+        return match scene_file {
+            _ if nothing => Err(missing::message(text, None).into()),
+            true => from_file(path),
+            false => import::from_file(path),
+        };
     }
     if let Some(scene) = scene::named(text) {
         let scene = Arc::new(scene.map_err(|e| Usage(e.to_string()))?);
         return Ok(NamedScene { name: text.to_owned(), stem: text.to_owned(), scene, file: None });
     }
     // A file whose name says nothing is read only where there is no other way to understand the words.
-    from_formula(text).or_else(|e| if Path::new(text).is_file() { import::from_file(Path::new(text)) } else { Err(e) })
+    from_formula(text).or_else(|e| match () {
+        () if path.is_file() => import::from_file(path),
+        () if missing::is_path(text) && !path.exists() => Err(missing::message(text, Some(&e.to_string())).into()),
+        () => Err(e),
+    })
 }
 
 /// The scene in a file, named as its file.

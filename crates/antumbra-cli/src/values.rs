@@ -3,6 +3,7 @@
 use std::time::Duration;
 
 use antumbra::{
+    image::check_size,
     render::{Method, Overlay},
     report::Exhibit,
     scene::{self, Animation, ColorBy, Course, Exposure, Finish, Tone},
@@ -15,11 +16,6 @@ pub(crate) struct Size {
     pub(crate) width: usize,
     pub(crate) height: usize,
 }
-
-/// Pixels a side that PNG, EXR and the memory of a large machine can take.
-const MAX_SIDE: usize = 65_535;
-/// Pixels altogether: at about 100 bytes each for all planes this is 26 GB.
-const MAX_PIXELS: usize = 1 << 28;
 
 /// A value for a parameter.
 #[derive(Clone, Debug, PartialEq)]
@@ -95,17 +91,11 @@ pub(crate) fn size(text: &str) -> Result<Size, String> {
             return Err(FORM.to_owned());
         }
         // Only digits: what does not parse is too long.
-        match word.parse::<usize>().unwrap_or(usize::MAX) {
-            0 => Err("a picture needs at least 1 pixel a side".to_owned()),
-            n if n > MAX_SIDE => Err(format!("too large: at most {MAX_SIDE} pixels a side")),
-            n => Ok(n),
-        }
+        Ok(word.parse::<usize>().unwrap_or(usize::MAX))
     };
-    let size = Size { width: side(width)?, height: side(height)? };
-    if size.width * size.height > MAX_PIXELS {
-        return Err(format!("too large: at most {MAX_PIXELS} pixels altogether (16384x16384)"));
-    }
-    Ok(size)
+    let (width, height) = (side(width)?, side(height)?);
+    check_size([width, height]).map_err(|e| e.to_string())?;
+    Ok(Size { width, height })
 }
 
 /// A whole number in `lo..=hi`.
@@ -244,8 +234,13 @@ fn choices(what: &str, text: &str, names: &[&str]) -> String {
 /// The name that was probably meant, if one is near enough.
 pub(crate) fn nearest<'a>(text: &str, names: &[&'a str]) -> Option<&'a str> {
     let text = text.to_lowercase();
-    let near = |name: &&'a str| strsim::jaro_winkler(&text, name);
+    let near = |name: &&'a str| likeness(&text, name);
     names.iter().copied().max_by(|a, b| near(a).total_cmp(&near(b))).filter(|name| near(name) > 0.8)
+}
+
+/// How like two names are, from 0 to 1.
+pub(crate) fn likeness(a: &str, b: &str) -> f64 {
+    strsim::jaro_winkler(a, b)
 }
 
 #[cfg(test)]

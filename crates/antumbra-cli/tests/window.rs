@@ -48,12 +48,13 @@ const LEFT: (Range<usize>, Range<usize>) = (10..330, 138..186);
 const LONG: Duration = Duration::from_secs(120);
 
 /// A display that nobody sees; `None` where there is no Xvfb.
-fn display() -> Outcome<Option<(Process, String)>> {
+fn display(more: &[&str]) -> Outcome<Option<(Process, String)>> {
     let [w, h] = SCREEN;
     let screen = format!("{w}x{h}x24");
     let mut command = Command::new("Xvfb");
     command
         .args(["-displayfd", "1", "-screen", "0", &screen, "-nolisten", "tcp"])
+        .args(more)
         .stdout(Stdio::piped())
         .stderr(Stdio::null());
     let Ok(mut child) = command.spawn() else { return Ok(None) };
@@ -230,6 +231,12 @@ fn difference(a: &Shot, b: &Shot) -> f64 {
     a.iter().zip(&b).filter(differs).count() as f64 / a.len() as f64
 }
 
+/// Whether the bar below is full and green: then nothing changes any more but by a hand.
+fn finished(shot: &Shot) -> bool {
+    let end = region(shot, &(140..156, 800..804));
+    end.iter().all(|c| c.iter().zip([142, 198, 142]).all(|(a, b)| a.abs_diff(b) < 12))
+}
+
 /// Whether something is written in the colour of errors.
 fn complains(shot: &Shot) -> bool {
     // The brightest parts of the letters.
@@ -268,33 +275,89 @@ fn without_a_display_it_says_so() {
     let words = String::from_utf8_lossy(&output.stderr);
     assert_eq!(output.status.code(), Some(1), "{words}");
     assert!(words.contains("there is no display") && words.contains("antumbra render"), "{words}");
+    let output = view(Some(":4711"), &["chubs"]).output().unwrap();
+    let words = String::from_utf8_lossy(&output.stderr);
+    assert_eq!(output.status.code(), Some(1), "{words}");
+    assert!(words.contains("there is no display: ") && !words.contains(".rs:"), "{words}");
     let output = view(None, &["x^2 + $"]).output().unwrap();
     assert_eq!(output.status.code(), Some(2), "a bad formula is found first");
 }
 
+/// The display, unless there is no Xvfb and none is required.
+fn hidden(more: &[&str]) -> Option<(Process, String)> {
+    let found = display(more).unwrap();
+    let required = std::env::var_os("ANTUMBRA_WINDOW_REQUIRED").is_some();
+    assert!(found.is_some() || !required, "ANTUMBRA_WINDOW_REQUIRED is set, and there is no Xvfb");
+    if found.is_none() {
+        eprintln!("SKIPPED: there is no Xvfb, the window is not looked at");
+    }
+    found
+}
+
+/// Hides the drivers for Vulkan, by the two names that its loader knows for where they are.
+fn without_vulkan(command: &mut Command) -> &mut Command {
+    ["VK_DRIVER_FILES", "VK_ICD_FILENAMES"].iter().fold(command, |command, name| command.env(name, "/no/driver.json"))
+}
+
+/// Lets a hand work in the window of a command and gives what that says when it is closed.
+fn look_at(display: &str, command: &mut Command, whole: bool) -> String {
+    let mut child = Process(command.spawn().unwrap());
+    let ended = session(display, whole);
+    if ended.is_err() {
+        let _ = child.0.kill();
+    }
+    let status = child.0.wait().unwrap();
+    let mut words = String::new();
+    std::io::Read::read_to_string(child.0.stderr.as_mut().unwrap(), &mut words).unwrap();
+    if let Err(error) = ended {
+        panic!("{error}\n{words}");
+    }
+    assert!(status.success() && words.contains("frames of the window"), "{status}: {words}");
+    words
+}
+
 #[test]
 fn a_hand_types_and_drags_and_sees_the_surface_move() {
-    let required = std::env::var_os("ANTUMBRA_WINDOW_REQUIRED").is_some();
-    let Some((_server, display)) = display().unwrap() else {
-        assert!(!required, "ANTUMBRA_WINDOW_REQUIRED is set, and there is no Xvfb");
-        eprintln!("SKIPPED: there is no Xvfb, the window is not looked at");
-        return;
-    };
-    for renderer in [&[][..], &["--opengl"][..]] {
-        let arguments = [&["chubs", "--timings"][..], renderer].concat();
-        let mut child = Process(view(Some(&display), &arguments).spawn().unwrap());
-        if let Err(error) = session(&display, renderer.is_empty()) {
-            let _ = child.0.kill();
-            let mut words = String::new();
-            let _ = std::io::Read::read_to_string(child.0.stderr.as_mut().unwrap(), &mut words);
-            panic!("{error}\n{words}");
+    let Some((_server, display)) = hidden(&[]) else { return };
+    let words = look_at(&display, &mut view(Some(&display), &["chubs", "--timings"]), true);
+    println!("by default: {}", words.trim());
+    let words = look_at(&display, &mut view(Some(&display), &["chubs", "--timings", "--opengl"]), false);
+    println!("--opengl: {}", words.trim());
+    assert!(words.contains("drawn with OpenGL"), "{words}");
+}
+
+#[test]
+fn where_wgpu_has_no_adapter_opengl_draws_the_window() {
+    let Some((_server, display)) = hidden(&[]) else { return };
+    let words = look_at(&display, without_vulkan(&mut view(Some(&display), &["chubs", "--timings"])), false);
+    println!("without Vulkan: {}", words.trim());
+    assert!(words.contains("drawn with OpenGL"), "{words}");
+}
+
+/// Neither Vulkan nor OpenGL: the display has no GLX, and EGL and Mesa find no drivers.
+#[test]
+fn where_nothing_draws_it_says_so() {
+    let Some((_server, display)) = hidden(&["-extension", "GLX"]) else { return };
+    let mut command = view(Some(&display), &["chubs"]);
+    without_vulkan(&mut command)
+        .env("__EGL_VENDOR_LIBRARY_FILENAMES", "/no/driver.json")
+        .env("LIBGL_DRIVERS_PATH", "/no");
+    let mut child = Process(command.spawn().unwrap());
+    let begun = Instant::now();
+    let status = loop {
+        if let Some(status) = child.0.try_wait().unwrap() {
+            break status;
         }
-        let status = child.0.wait().unwrap();
-        let mut words = String::new();
-        std::io::Read::read_to_string(child.0.stderr.as_mut().unwrap(), &mut words).unwrap();
-        assert!(status.success() && words.contains("frames of the window"), "{status}: {words}");
-        println!("{}: {}", renderer.first().unwrap_or(&"by default"), words.trim());
+        assert!(begun.elapsed() < LONG, "it neither draws nor ends");
+        sleep(Duration::from_millis(100));
+    };
+    let mut words = String::new();
+    std::io::Read::read_to_string(child.0.stderr.as_mut().unwrap(), &mut words).unwrap();
+    assert_eq!(status.code(), Some(1), "{words}");
+    for part in ["error: the window cannot be drawn: there is no adapter but OpenGL's", "Mesa", "antumbra render"] {
+        assert!(words.contains(part), "{part}: {words}");
     }
+    assert!(!words.contains("panicked"), "{words}");
 }
 
 /// Everything that a hand does; the short session only looks and drags.
@@ -311,13 +374,23 @@ fn session(display: &str, whole: bool) -> Outcome<()> {
         sleep(Duration::from_millis(100));
     };
     let rich = |shot: &Shot| colours(shot) > 60 && surface(shot) > 0.05;
-    let first = screen.until("the first picture", rich)?;
+    let first = screen.until("the first picture", |shot| rich(shot) && finished(shot))?;
     screen.x.set_input_focus(InputFocus::POINTER_ROOT, window, x11rb::CURRENT_TIME)?.check()?;
     screen.drag([600, 400], [760, 360])?;
-    let turned = screen.until("another side of it", |shot| rich(shot) && difference(&first, shot) > 0.05)?;
+    let turned =
+        screen.until("another side of it", |shot| rich(shot) && finished(shot) && difference(&first, shot) > 0.05)?;
     if whole {
         save(&first, "first");
         save(&turned, "turned");
+        let mut before = turned.clone();
+        for (key, name) in [('1', "verdict"), ('2', "shadow"), ('3', "cost"), ('4', "width")] {
+            screen.key(key.into(), None)?;
+            let shot = screen.until(name, |shot| difference(&before, shot) > 0.05)?;
+            save(&shot, name);
+            before = shot;
+        }
+        screen.key('0'.into(), None)?;
+        screen.until("the colours", |shot| difference(&turned, shot) < 0.02)?;
         screen.type_formula("x^2+y^2/4+z^2=1")?;
         let typed = screen.until("the other surface", |shot| rich(shot) && difference(&turned, shot) > 0.05)?;
         save(&typed, "typed");

@@ -1,7 +1,7 @@
 //! A picture of any size, drawn and written in the background.
 use crate::{host::SharedHost, priority::step_back};
 use antumbra::{
-    image::{COLOR_PLANE, Depth, exr_bytes, png_bytes},
+    image::{COLOR_PLANE, Depth, check_size, exr_bytes, png_bytes},
     render::{Method, Overlay, RenderSpec, Renderer, RunSpec},
     scene::SceneFile,
 };
@@ -15,9 +15,6 @@ use std::{
     time::Duration,
 };
 
-/// Most pixels of a side.
-pub const MOST: usize = 16_384;
-
 /// Work between two looks at the clock.
 const SLICE: Duration = Duration::from_millis(100);
 
@@ -30,7 +27,7 @@ pub struct Order {
     pub name: String,
     /// The scene.
     pub file: SceneFile,
-    /// Pixels per row and rows, each from 1 to [`MOST`].
+    /// Pixels per row and rows.
     pub size: [usize; 2],
     /// How shadows are found.
     pub method: Method,
@@ -75,9 +72,7 @@ impl Export {
         if !["png", "exr"].contains(&format.as_str()) {
             return Err(format!("`{}` has no format that is known: end it in .png or .exr", order.path.display()));
         }
-        if !order.size.iter().all(|n| (1..=MOST).contains(n)) {
-            return Err(format!("a picture has from 1 to {MOST} pixels a side"));
-        }
+        check_size(order.size).map_err(|e| e.to_string())?;
         let place = host.reserve(&order.path)?;
         let state = Arc::new(Mutex::new(Progress::Drawing(0.0, None)));
         let cancel = Arc::new(AtomicBool::new(false));

@@ -18,4 +18,4 @@ pub mod ui;
 mod window;
 pub mod worker;
 
-pub use window::{Error, Options, run};
+pub use window::{Error, Options, Report, run};

@@ -1,5 +1,6 @@
 //! The window without a display: hands and keys as events, answers as labels.
 use antumbra::{
+    geom::Vec3,
     render::{Frame, RunSpec},
     scene::{SceneFile, file_named},
 };
@@ -49,7 +50,11 @@ impl Host for Plain {
 type Window = Harness<'static, App>;
 
 fn window(start: Found) -> Window {
-    let mut harness = Harness::builder().with_size([1180.0, 760.0]).build_eframe(|creation| {
+    sized(start, [1180.0, 760.0])
+}
+
+fn sized(start: Found, size: [f32; 2]) -> Window {
+    let mut harness = Harness::builder().with_size(size).build_eframe(|creation| {
         let host: SharedHost = Arc::new(Plain);
         App::new(&creation.egui_ctx, host, RunSpec::default(), start).unwrap()
     });
@@ -246,6 +251,102 @@ fn overlays_have_legends_and_pixels_are_inspected() {
     window.step();
     until(&mut window, "the colours", |w| !has(w, "hit (proved)"));
     assert_eq!(Frame::UNSEEN, 255);
+}
+
+#[test]
+fn every_overlay_has_its_legend_within_the_picture() {
+    for size in [[1180.0, 760.0], [760.0, 480.0]] {
+        let mut window = sized(formula("x^2 + y^2 + z^2 = 1"), size);
+        until(&mut window, "the picture", |w| w.state().is_done());
+        let overlays = [
+            ("Verdict", "empty (proved)", "hit (proved)"),
+            ("Shadow class", "no surface", "lit (all of each light)"),
+            ("Cost", "cost below 2 evaluations", "cost from 64"),
+            ("Bracket width", "no surface", "width below 2^-15"),
+        ];
+        for (button, one, other) in overlays {
+            window.get_by_label(button).click();
+            window.run_steps(2);
+            until(&mut window, button, |w| has(w, one) && has(w, other));
+            // Its place follows from its size: one frame later.
+            window.run_steps(2);
+            let picture = window.get_by_label("Picture").rect().expand(1.0);
+            for text in [one, other] {
+                let words = window.get_by_label(text).rect();
+                assert!(picture.contains_rect(words), "{button}, {size:?}: {words} is not in {picture}");
+            }
+        }
+    }
+}
+
+/// The lights of the scene that is drawn: centre, length of an edge, brightness.
+fn drawn_light(window: &Window) -> (Vec3, f64, f64) {
+    let light = window.state().model().scene().expect("a scene is drawn").lights[0];
+    (light.rect.center, light.rect.edge_u.length(), light.color[1])
+}
+
+#[test]
+fn light_has_size_distance_and_strength() {
+    let mut window = ball();
+    let orbit = window.state().model().orbit().unwrap();
+    let away = |centre: Vec3| (centre - orbit.target).length();
+    let (centre, edge, bright) = drawn_light(&window);
+    let side = 2.0 * edge;
+    let about = |a: f64, b: f64| (a - b).abs() < 2e-3 * b.abs().max(1.0);
+    for (label, to) in [
+        ("Size of the light", 2.0 * side),
+        ("Distance of the light", 1.5 * away(centre)),
+        ("Strength of the light", 2.0),
+    ] {
+        window.get_by_role_and_label(Role::Slider, label).set_value_accesskit(to);
+        window.run_steps(2);
+        until(&mut window, label, |w| w.state().is_done());
+        let now = drawn_light(&window);
+        let (distance, size, strength) = (away(now.0), 2.0 * now.1, now.2 / bright);
+        match label {
+            "Size of the light" => assert!(about(size, to) && now.0 == centre && strength == 1.0, "{now:?}"),
+            "Distance of the light" => assert!(about(distance, to) && about(size, side) && strength == 1.0, "{now:?}"),
+            _ => assert!(about(strength, to) && now.0 == centre && about(size, side), "{now:?}"),
+        }
+        window.get_by_label("Undo").click();
+        window.run_steps(2);
+        until(&mut window, "the picture", |w| w.state().is_done());
+        assert_eq!(drawn_light(&window), (centre, edge, bright), "{label} is taken back");
+        assert_eq!(window.state().model().ways(), [false, true], "{label} was one step");
+    }
+}
+
+#[test]
+fn a_hand_takes_the_light_in_the_picture() {
+    let mut window = ball();
+    let away = (drawn_light(&window).0 - window.state().model().orbit().unwrap().target).length();
+    // The light is brought so near that it is in the picture.
+    window.get_by_role_and_label(Role::Slider, "Distance of the light").set_value_accesskit(0.2 * away);
+    window.get_by_label("Sun").click();
+    window.run_steps(2);
+    until(&mut window, "the picture", |w| w.state().is_done());
+    let orbit = window.state().model().orbit().unwrap();
+    let depth = |centre: Vec3| orbit.view().camera(1.0).project(centre).expect("before the camera").1;
+    let handle = |w: &Window| w.get_by_role_and_label(Role::Slider, "Light").rect().center();
+    let (from, centre) = (handle(&window), drawn_light(&window).0);
+    let by = Vec2::new(50.0, -30.0);
+    drag(&mut window, from, by, Modifiers::NONE);
+    until(&mut window, "the picture", |w| w.state().is_done());
+    let moved = drawn_light(&window).0;
+    assert!((handle(&window) - from - by).length() < 3.0, "it is where the hand has left it");
+    assert!(moved != centre && (depth(moved) - depth(centre)).abs() < 1e-6, "parallel to the picture");
+    assert_eq!(window.state().model().orbit().unwrap(), orbit, "the camera stays");
+    window.get_by_label("Undo").click();
+    window.run_steps(2);
+    until(&mut window, "the picture", |w| w.state().is_done());
+    assert_eq!(drawn_light(&window).0, centre, "one drag is one step");
+    // Beside the handle the same tool turns the light.
+    drag(&mut window, from + Vec2::new(-60.0, 90.0), Vec2::new(40.0, 0.0), Modifiers::NONE);
+    until(&mut window, "the picture", |w| w.state().is_done());
+    let turned = drawn_light(&window).0;
+    let length = |centre: Vec3| (centre - orbit.target).length();
+    assert!(turned != centre && (length(turned) - length(centre)).abs() < 1e-9);
+    assert_eq!(window.state().model().orbit().unwrap(), orbit);
 }
 
 #[test]

@@ -18,7 +18,7 @@ const ROOMS: &[(&str, &[&str])] = &[
     ("trace", &["eval", "geom", "grid", "verdict"]),
     ("shadow", &["eval", "geom", "trace", "verdict"]),
     ("paper", &["eval", "geom", "grid", "trace", "shadow", "verdict"]),
-    ("scene", &["eval", "expr", "geom", "tape"]),
+    ("scene", &["eval", "expr", "geom", "image", "tape"]),
     ("import", &["eval", "expr", "geom", "scene", "tape"]),
     ("render", &["eval", "expr", "geom", "grid", "image", "paper", "scene", "shadow", "tape", "trace", "verdict"]),
     ("audit", &["eval", "expr", "geom", "render", "scene"]),

@@ -1,6 +1,6 @@
 //! What is seen and not certified: inner edges, floors beside edges, parallel lines.
 use antumbra::render::{Frame, RenderSpec, Renderer, RunSpec, Stats};
-use antumbra::scene::SceneFile;
+use antumbra::scene::{self, SceneFile};
 use std::sync::Arc;
 use std::time::Duration;
 
@@ -76,4 +76,31 @@ fn orthographic_cameras_see_no_distance() {
     assert!(far > 500 && far.abs_diff(near) <= far / 50, "{far} and {near}");
     let [far, near] = hits("angle = 15");
     assert!(2 * near > 3 * far && far > 50, "{far} and {near}");
+}
+
+/// Where the two parts of a smooth union meet, f has a kink, and brackets stay open: between lit and lit nothing dark may show.
+#[test]
+fn open_brackets_are_no_specks() {
+    let scene = Arc::new(scene::Scene::from_formula("smooth_union(torus(1, 0.3), sphere(0.6), 0.4)").unwrap());
+    let (size, tolerance) = (128, 1.0 / 64.0);
+    let spec = RenderSpec { width: size, height: size, tolerance, rectangles: 40, ..RenderSpec::default() };
+    let mut renderer = Renderer::new(scene, spec, RunSpec::default()).unwrap();
+    while !renderer.refine(Duration::from_secs(1)) {}
+    let (frame, light) = (renderer.frame(), &renderer.frame().lights[0]);
+    let (mut open, mut specks) = (0, 0);
+    for row in 1..size - 1 {
+        for column in 1..size - 1 {
+            let index = row * size + column;
+            let around = [index - size, index - 1, index + 1, index + size];
+            let hit = |at: usize| frame.verdict[at] == 1;
+            if !hit(index) || !around.into_iter().all(hit) || light.visible_hi[index] - light.visible_lo[index] < 0.3 {
+                continue;
+            }
+            open += 1;
+            let least = around.map(|at| frame.rgb[at][0]).into_iter().fold(f32::INFINITY, f32::min);
+            specks += usize::from(frame.rgb[index][0] < 0.95 * least);
+        }
+    }
+    assert!(open >= 5, "{open} brackets are open");
+    assert_eq!(specks, 0, "of {open}");
 }

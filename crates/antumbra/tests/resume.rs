@@ -2,6 +2,7 @@
 #[path = "renders/result.rs"]
 mod result;
 
+use antumbra::image::SizeError;
 use antumbra::render::{Error, Method, RenderSpec, Renderer, RunSpec, StateError};
 use antumbra::scene::{Scene, preset};
 use result::result;
@@ -129,7 +130,7 @@ fn a_state_of_something_else_is_refused() {
     let message = refused("links", RenderSpec { tolerance: 0.5, floor: false, ..spec.clone() }).to_string();
     assert!(message.contains("floor: true, tolerance: 0.00392156"), "{message}");
     let wrong = RenderSpec { width: 0, ..spec.clone() };
-    assert!(matches!(refused("links", wrong), StateError::Render(Error::OutOfRange { .. })));
+    assert!(matches!(refused("links", wrong), StateError::Render(Error::Size(SizeError::Empty))));
     // The same words, another function: a formula that only its values tell apart.
     let mut other = preset("links").unwrap().unwrap();
     other.objects[0].surface = Arc::clone(&other.objects[1].surface);

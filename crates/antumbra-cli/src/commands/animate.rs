@@ -15,7 +15,7 @@ use antumbra::{
 };
 use anyhow::{Context, Result, anyhow, bail};
 
-use super::{End, deadline, pursue, spent};
+use super::{End, deadline, legend_left_out, pursue, spent};
 use crate::{
     animation::{Container, Film, Output, Pattern},
     failure::{Interrupted, Usage},
@@ -57,7 +57,7 @@ pub(super) fn run(options: &RenderOptions, film: &Film) -> Result<()> {
         None => format!("{} to {}", pattern.file(0).display(), pattern.file(n - 1).display()),
         Some((container, mut sink)) => {
             let progress = Progress::new(options.quiet, "frames to one file");
-            assemble(container, film, &pattern, options, &mut sink, &progress)?;
+            assemble(container, film, &pattern, &mut sink, &progress)?;
             finish(vec![sink])?;
             // They are in the file now.
             (0..n).try_for_each(|k| fs::remove_file(pattern.file(k))).context("cannot remove the frames")?;
@@ -84,7 +84,7 @@ fn frames(
     let n = film.animation.frames();
     let progress = Progress::new(options.quiet, "frames");
     let (deadline, begin) = (deadline(options.budget), Instant::now());
-    let (mut drawn, mut others, mut same) = (0, 0, 0);
+    let (mut drawn, mut others, mut same, mut legend) = (0, 0, 0, None);
     for k in 0..n {
         let path = pattern.file(k);
         let mut scene = film.animation.frame(k)?;
@@ -126,6 +126,7 @@ fn frames(
             Some(kind) => renderer.frame().overlay(kind, options.spec.tolerance)?,
             None => renderer.frame().picture(&scene.look)?,
         };
+        legend = legend.or_else(|| legend_left_out(renderer.frame(), options.overlay));
         let Format::Png(depth) = options.format else { bail!("frames are PNG files") };
         sink.fill(&png_bytes_noted(frame.require(COLOR_PLANE)?, depth, Some(&note))?)?;
         finish(vec![sink])?;
@@ -134,6 +135,9 @@ fn frames(
         progress.show_frame(k, n, (k + 1) as f64 / n as f64, None);
     }
     drop(progress);
+    if let Some(words) = legend.filter(|_| !options.quiet) {
+        remark(&words);
+    }
     if others > 0 {
         remark(&format!("{others} of the frames that were there are of other scenes or options: they were replaced"));
     }
@@ -155,21 +159,18 @@ fn found_note(path: &Path) -> Option<String> {
 }
 
 /// Makes one file of all frames.
-fn assemble(
-    container: Container,
-    film: &Film,
-    pattern: &Pattern,
-    options: &RenderOptions,
-    sink: &mut Sink,
-    progress: &Progress,
-) -> Result<()> {
+fn assemble(container: Container, film: &Film, pattern: &Pattern, sink: &mut Sink, progress: &Progress) -> Result<()> {
     let n = film.animation.frames();
-    let (width, height) = (options.spec.width, options.spec.height);
-    let mut frame = |k: usize| {
-        progress.set(k as f64 / n as f64);
+    let still = |k: usize| {
         let path = pattern.file(k);
         let refused = |reason: String| image::Error::Decode { name: path.display().to_string(), reason };
-        Ok(Still::read(&fs::read(&path).map_err(|e| refused(e.to_string()))?)?.codes)
+        Still::read(&fs::read(&path).map_err(|e| refused(e.to_string()))?)
+    };
+    // A legend makes frames higher than what was asked for.
+    let Still { width, height, .. } = still(0)?;
+    let mut frame = |k: usize| {
+        progress.set(k as f64 / n as f64);
+        Ok(still(k)?.codes)
     };
     if container == Container::Mp4 {
         return encode_mp4(film, [width, height], n, &mut frame, sink);

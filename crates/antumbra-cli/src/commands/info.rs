@@ -2,7 +2,7 @@
 
 use antumbra::{
     render::{Method, RenderSpec, RunSpec},
-    scene::{GALLERY, PRESETS},
+    scene::{GALLERY, GalleryEntry, PRESETS},
 };
 use antumbra_gpu::Adapter;
 use anyhow::Result;
@@ -13,10 +13,14 @@ use crate::{options::thread_count, output::print};
 pub(super) fn run() -> Result<()> {
     let methods: Vec<String> = Method::ALL.iter().map(|(_, name, about)| format!("  {name:<15} {about}")).collect();
     let presets: Vec<String> = PRESETS.iter().map(|p| format!("  {:<15} {}", p.name, p.title)).collect();
+    // The paper's scenes begin the gallery, and are presets: each name once.
+    let preset = |e: &&GalleryEntry| PRESETS.iter().any(|p| p.name == e.name);
+    let (above, others): (Vec<&GalleryEntry>, Vec<&GalleryEntry>) = GALLERY.iter().partition(preset);
+    let above: Vec<&str> = above.iter().map(|e| e.name).collect();
     let gallery =
-        GALLERY.iter().map(|e| Ok(format!("  {:<15} {}", e.name, e.scene()?.title))).collect::<Result<Vec<_>>>()?;
+        others.iter().map(|e| Ok(format!("  {:<15} {}", e.name, e.scene()?.title))).collect::<Result<Vec<_>>>()?;
     print(&format!(
-        "antumbra {}\nprocessor: {}{}\nthreads:   {}\nadapters:\n{}\npresets:\n{}\ngallery ({} surfaces):\n{}\nmethods (default: {}):\n{}\n",
+        "antumbra {}\nprocessor: {}{}\nthreads:   {}\nadapters:\n{}\npresets:\n{}\ngallery ({} surfaces: {} from above, and):\n{}\nmethods (default: {}):\n{}\n",
         env!("CARGO_PKG_VERSION"),
         std::env::consts::ARCH,
         processor_features(),
@@ -24,6 +28,7 @@ pub(super) fn run() -> Result<()> {
         graphics_adapters(),
         presets.join("\n"),
         GALLERY.len(),
+        above.join(", "),
         gallery.join("\n"),
         RenderSpec::default().method.name(),
         methods.join("\n"),

@@ -21,7 +21,7 @@ use std::{
 
 use antumbra::{
     image::{COLOR_PLANE, Planes, exr_bytes, png_bytes},
-    render::{Frame, Renderer},
+    render::{Frame, Overlay, Renderer},
     scene::Look,
 };
 use anyhow::{Result, bail};
@@ -138,6 +138,15 @@ pub(crate) fn picture_bytes(planes: &Planes, format: Format) -> Result<Vec<u8>> 
         Format::Png(depth) => png_bytes(planes.require(COLOR_PLANE)?, depth)?,
         Format::Exr => exr_bytes(planes)?,
     })
+}
+
+/// A word about the legend of an overlay, where there is no room for it.
+fn legend_left_out(frame: &Frame, overlay: Option<Overlay>) -> Option<String> {
+    let (width, height) = (frame.width, frame.height);
+    // Widths of brackets do not change what is written.
+    let fits = frame.legend(overlay?, 1.0).fits(width, height);
+    let words = "is too small for the legend, which is left out; there is one from 256x256 on";
+    (!fits).then(|| format!("{width}x{height} {words}"))
 }
 
 /// The file for JSON, if it is to be one.

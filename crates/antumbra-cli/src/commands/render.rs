@@ -10,8 +10,8 @@ use indicatif::HumanCount;
 use serde::Serialize;
 
 use super::{
-    End, animate, deadline, device, frame_bytes, json_sink, json_text, picture_bytes, print_json, pursue,
-    record::FrameRecord, spent,
+    End, animate, deadline, device, frame_bytes, json_sink, json_text, legend_left_out, picture_bytes, print_json,
+    pursue, record::FrameRecord, spent,
 };
 use crate::{
     bands::{self, Rows},
@@ -132,6 +132,9 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     print_json(options.json.as_ref(), &record)?;
     if !options.quiet {
         remark(&summary(options, &stats));
+        if let Some(words) = legend_left_out(renderer.frame(), options.overlay) {
+            remark(&words);
+        }
     }
     Ok(())
 }

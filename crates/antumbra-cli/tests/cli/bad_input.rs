@@ -64,6 +64,29 @@ fn scenes_and_methods_that_do_not_exist() {
 }
 
 #[test]
+fn files_that_are_not_there() {
+    let bench = Bench::new();
+    fs::write(bench.file("rings.toml"), "[[surface]]\nformula = \"x\"").unwrap();
+    let said = |text: &str, words: &str| {
+        let result = bench.antumbra(&["render", text]).assert().code(2).stdout(predicate::str::is_empty());
+        result.stderr(contains(words));
+    };
+    said("rigns.toml", "error: there is no file `rigns.toml`\ndid you mean `rings.toml`?\n");
+    said("rings.tml", "there is no file `rings.tml`, and it is no formula: `.` has no meaning here\ndid you mean");
+    said("boy.tmol", "did you mean `boy`?");
+    said(
+        "nosuch/rings.toml",
+        "there is no file `nosuch/rings.toml`, not even a folder `nosuch`\ndid you mean `rings.toml`?",
+    );
+    said("nosuch/rings", "not even a folder `nosuch`, and it is no formula: ");
+    said("rings.toml/a.vm", "there is no file `rings.toml/a.vm`, not even a folder `rings.toml`");
+    said("x^2 + y.z", "1 | x^2 + y.z");
+    bench.antumbra(&["scene", "check", "rigns.toml"]).assert().code(2).stderr(contains("did you mean `rings.toml`?"));
+    bench.antumbra(&["view", "rigns.toml"]).assert().code(2).stderr(contains("did you mean `rings.toml`?"));
+    assert_eq!(bench.names(), ["rings.toml"]);
+}
+
+#[test]
 fn formulas_that_are_none() {
     refused(&["render", ""], 2, &["empty"]);
     refused(&["render", "   "], 2, &["empty"]);
@@ -110,6 +133,9 @@ fn outputs_that_cannot_be() {
     refused(&with(&["-o", "missing/p.png"]), 1, &["missing/p.png", "the folder `missing` does not exist", "make it"]);
     refused(&with(&["-o", "p.jpg"]), 2, &["p.jpg", ".png or .exr"]);
     refused(&with(&["-o", "p"]), 2, &[".png or .exr"]);
+    for moving in ["p.gif", "p.apng", "p.mp4"] {
+        refused(&with(&["-o", moving]), 2, &[moving, "nothing moves", "--turntable", "--frames N", ".png or .exr"]);
+    }
     refused(&with(&["-o", "."]), 1, &["it is a folder", "add a file name"]);
     refused(&with(&["-o", ""]), 2, &["--output"]);
     refused(&with(&["--json", "missing/s.json"]), 1, &["missing/s.json", "does not exist"]);

@@ -190,10 +190,48 @@ fn paper_prints_tables_and_writes_figures() {
 }
 
 #[test]
+fn overlays_have_a_legend_or_say_why_not() {
+    let bench = Bench::new();
+    let rows = |size: &str, name: &str| {
+        let args = ["render", "sphere", "--overlay", "width", "--size", size, "-o", name];
+        let result = bench.antumbra(&args).assert().success();
+        let picture = fs::File::open(bench.file(name)).unwrap();
+        let reader = png::Decoder::new(std::io::BufReader::new(picture)).read_info().unwrap();
+        let said = String::from_utf8(result.get_output().stderr.clone()).unwrap();
+        ([reader.info().width, reader.info().height], said.contains("too small for the legend"))
+    };
+    assert_eq!(rows("40", "small.png"), ([40, 40], true));
+    let ([width, height], said) = rows("256", "large.png");
+    assert!(width == 256 && height > 300 && !said, "{width} x {height}");
+    let film = [
+        "render",
+        "sphere",
+        "--overlay",
+        "verdict",
+        "--size",
+        "256x200",
+        "--turntable",
+        "--frames",
+        "2",
+        "-o",
+        "o.gif",
+    ];
+    bench.antumbra(&film).assert().success();
+    let size = [256_u16, 200 + 116].map(u16::to_le_bytes);
+    assert_eq!(fs::read(bench.file("o.gif")).unwrap()[6..10], *size.as_flattened(), "the legend is in the film");
+}
+
+#[test]
 fn info_names_presets_and_methods() {
     let result = Bench::new().antumbra(&["info"]).assert().success();
     for word in [env!("CARGO_PKG_VERSION"), "threads", "orthocircle", "mcmullen", "paper-quadtree", "rays-mc"] {
         assert!(String::from_utf8_lossy(&result.get_output().stdout).contains(word), "{word}");
+    }
+    let text = String::from_utf8_lossy(&result.get_output().stdout).into_owned();
+    for name in antumbra::scene::names() {
+        let lines =
+            text.lines().filter(|line| line.strip_prefix("  ").is_some_and(|l| l.split(' ').next() == Some(name)));
+        assert_eq!(lines.count(), 1, "{name}");
     }
 }
 

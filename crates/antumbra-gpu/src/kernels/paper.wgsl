@@ -63,7 +63,7 @@ fn grid(@builtin(workgroup_id) group: vec3<u32>, @builtin(local_invocation_index
     sign_off(group.x, local, seal());
 }
 
-fn possibly_crossed(number: u32) -> bool { return (marked[number / 32u] >> (number % 32u) & 1u) == 1u; }
+fn possibly_crossed(number: u32) -> bool { return ((marked[number / 32u] >> (number % 32u)) & 1u) == 1u; }
 
 // A quotient is off by 2.5 units: up to 5 steps of the finer side of a power of two, and one more.
 fn step_by(r: f32, k: i32) -> f32 {

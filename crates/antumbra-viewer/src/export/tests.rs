@@ -83,5 +83,5 @@ fn what_is_cancelled_or_wrong_leaves_no_file() {
     let refused = |order: Order| begin(order).err().expect("it is refused");
     assert!(refused(order("a.jpg".into())).contains(".png or .exr"));
     assert!(refused(order("/nowhere/at/all.png".into())).contains("no folder"));
-    assert!(refused(Order { size: [0, 5], ..order(path) }).contains("pixels a side"));
+    assert!(refused(Order { size: [0, 5], ..order(path) }).contains("pixel a side"));
 }

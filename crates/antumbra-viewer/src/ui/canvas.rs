@@ -200,17 +200,23 @@ impl App {
         let Some(image) = self.sides.first().and_then(Side::best).filter(|image| !image.legend.is_empty()) else {
             return;
         };
+        // What is told of a pixel stands below, and often there is no room beside it.
         egui::Area::new(egui::Id::unique("legend"))
-            .fixed_pos(rect.right_bottom() + Vec2::new(-12.0, -12.0))
-            .pivot(Align2::RIGHT_BOTTOM)
+            .fixed_pos(rect.right_top() + Vec2::new(-12.0, 12.0))
+            .pivot(Align2::RIGHT_TOP)
             .interactable(false)
             .show(ui.ctx(), |ui| {
                 theme::float().show(ui, |ui| {
                     ui.spacing_mut().item_spacing.y = 2.0;
+                    // Never wider than the picture.
+                    ui.set_max_width((rect.width() - 48.0).max(40.0));
                     for Kind { color: [r, g, b], text, count } in image.legend.iter().filter(|kind| kind.count > 0) {
-                        ui.horizontal(|ui| {
+                        ui.horizontal_wrapped(|ui| {
                             let (square, _) = ui.allocate_exact_size(Vec2::splat(11.0), Sense::hover());
-                            ui.painter().rect_filled(square, 3.0, Color32::from_rgb(*r, *g, *b));
+                            // Dark colours have an outline.
+                            let line = Stroke::new(1.0, theme::FAINT.gamma_multiply(0.5));
+                            let color = Color32::from_rgb(*r, *g, *b);
+                            ui.painter().rect(square, 3.0, color, line, egui::StrokeKind::Inside);
                             ui.label(RichText::new(text).small());
                             ui.label(RichText::new(count.to_string()).small().color(theme::FAINT));
                         });

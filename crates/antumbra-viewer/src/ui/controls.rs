@@ -268,9 +268,10 @@ impl App {
         });
     }
 
-    /// A gesture on a field is one step of the history.
+    /// A gesture on a field is one step of the history. So is a value that comes without a hand, as from a screen reader.
     pub(super) fn settle_after(&mut self, field: &egui::Response) {
-        if field.drag_stopped() || field.lost_focus() {
+        let set = field.changed() && !field.is_pointer_button_down_on() && !field.has_focus();
+        if set || field.drag_stopped() || field.lost_focus() {
             self.model.settle();
         }
     }

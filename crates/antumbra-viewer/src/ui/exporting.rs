@@ -1,7 +1,7 @@
 //! The windows over the picture: export, keys.
 use super::{App, Note, bar::name, theme};
-use crate::export::{Export, MOST, Order, Progress};
-use antumbra::render::Overlay;
+use crate::export::{Export, Order, Progress};
+use antumbra::{image::MOST_SIDE, render::Overlay};
 use eframe::egui::{self, RichText};
 use std::path::{Path, PathBuf};
 
@@ -19,8 +19,12 @@ impl App {
         let name: String =
             self.model.document().name.chars().filter(|c| c.is_alphanumeric() || "-_".contains(*c)).collect();
         let path = format!("{}.png", if name.is_empty() { "picture" } else { &name });
-        self.form =
-            Some(ExportForm { path, size: self.pixels.map(|n| (2 * n).min(MOST)), deep: false, overlay: self.overlay });
+        self.form = Some(ExportForm {
+            path,
+            size: self.pixels.map(|n| (2 * n).min(MOST_SIDE)),
+            deep: false,
+            overlay: self.overlay,
+        });
     }
 
     pub(super) fn export_window(&mut self, context: &egui::Context) {
@@ -41,7 +45,7 @@ impl App {
                     ui.label("size");
                     ui.horizontal(|ui| {
                         let number = |ui: &mut egui::Ui, n: &mut usize, label: &str| {
-                            let field = ui.add(egui::DragValue::new(n).range(1..=MOST).speed(4.0));
+                            let field = ui.add(egui::DragValue::new(n).range(1..=MOST_SIDE).speed(4.0));
                             name(&field, label);
                         };
                         number(ui, &mut form.size[0], "Width");
@@ -141,6 +145,10 @@ impl App {
                         ui.end_row();
                     }
                 });
+                if !self.drawn_by.is_empty() {
+                    let words = format!("The window is drawn with {}.", self.drawn_by);
+                    ui.label(RichText::new(words).small().color(theme::FAINT));
+                }
             },
         );
     }

@@ -21,7 +21,7 @@ use crate::{
     host::{Found, SharedHost},
     model::Model,
     thumbnails::Thumbnails,
-    worker::{Event, Job, Refusal, Worker},
+    worker::{Event, Image, Job, Refusal, Worker},
 };
 use antumbra::render::{Overlay, RunSpec};
 use eframe::egui;
@@ -83,6 +83,8 @@ pub struct App {
     note: Option<Note>,
     meter: Meter,
     help: bool,
+    /// What draws the window.
+    drawn_by: String,
 }
 
 impl App {
@@ -126,7 +128,16 @@ impl App {
             note: None,
             meter: Meter::default(),
             help: false,
+            drawn_by: String::new(),
         })
+    }
+
+    /// Tells by what the window is drawn, to be shown with the keys, and at once if that is not what was to be expected.
+    pub fn is_drawn_by(&mut self, what: &str, unexpected: bool) {
+        what.clone_into(&mut self.drawn_by);
+        if unexpected {
+            self.note = Some(Note::Good(format!("drawn with {what}: there is no adapter for anything else")));
+        }
     }
 
     /// What is shown.
@@ -172,6 +183,7 @@ impl App {
 
     /// Takes in what the threads tell.
     fn listen(&mut self, context: &egui::Context) {
+        let mut images: Vec<Image> = vec![];
         while let Some(event) = self.worker.event() {
             match event {
                 Event::Built { revision, scene } => {
@@ -182,10 +194,10 @@ impl App {
                 Event::Image(image) => {
                     self.meter.image(&image);
                     self.seen = image.revision;
-                    while self.sides.len() <= image.side {
-                        self.sides.push(Side::default());
-                    }
-                    self.sides[image.side].take(context, *image);
+                    // Where several come at once, only the newest goes to the screen.
+                    let covered = |old: &mut Image| old.side == image.side && (image.whole || !old.whole);
+                    images.extract_if(.., covered).for_each(|old| self.worker.give_back(old.frame));
+                    images.push(*image);
                 }
                 Event::Done { revision, seconds } => {
                     if revision == self.drawn {
@@ -193,6 +205,13 @@ impl App {
                     }
                 }
             }
+        }
+        for image in images {
+            while self.sides.len() <= image.side {
+                self.sides.push(Side::default());
+            }
+            let old = self.sides[image.side].take(context, image);
+            old.for_each(|old| self.worker.give_back(old.frame));
         }
         self.gallery.listen(context);
         if let Some(found) = self.finder.found() {

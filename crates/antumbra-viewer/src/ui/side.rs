@@ -18,11 +18,11 @@ pub(super) struct Side {
 }
 
 impl Side {
-    /// Takes a picture in.
-    pub(super) fn take(&mut self, context: &Context, mut image: Image) {
-        // The texture has the colours from here on.
-        let rgba = std::mem::take(&mut image.rgba);
-        let pixels = rgba.chunks_exact(4).map(|c| Color32::from_rgba_premultiplied(c[0], c[1], c[2], c[3])).collect();
+    /// Takes a picture in, and gives those that it replaces.
+    pub(super) fn take(&mut self, context: &Context, mut image: Image) -> impl Iterator<Item = Image> + use<> {
+        // The texture has the colours from here on. Of the same size and alignment, they stay where they lie in memory.
+        let rgba = std::mem::take(&mut image.rgba).into_iter().map(u32::to_ne_bytes);
+        let pixels = rgba.map(|[r, g, b, a]| Color32::from_rgba_premultiplied(r, g, b, a)).collect();
         let colors = ColorImage::new(image.size, pixels);
         // Kinds of an overlay do not mix, and what is not settled must not bleed into what is.
         let smooth = image.legend.is_empty() && image.whole;
@@ -30,11 +30,12 @@ impl Side {
         let texture = context.load_texture(format!("side {}", image.side), colors, options);
         let whole = image.whole;
         let picture = Some(Picture { image, texture });
-        if whole {
-            (self.base, self.fine) = (picture, None);
+        let old = if whole {
+            [std::mem::replace(&mut self.base, picture), self.fine.take()]
         } else {
-            self.fine = picture;
-        }
+            [std::mem::replace(&mut self.fine, picture), None]
+        };
+        old.into_iter().flatten().map(|picture| picture.image)
     }
 
     /// The picture that says most.

@@ -28,8 +28,9 @@ pub struct Image {
     pub method: Method,
     /// Pixels per row and rows.
     pub size: [usize; 2],
-    /// Red, green, blue and alpha of each pixel, sRGB, rows from the top. Alpha is 0 where nothing is known yet, else 255.
-    pub rgba: Vec<u8>,
+    /// Red, green, blue and alpha of each pixel, sRGB, rows from the top: the bytes of a number as they lie in memory, so that a window
+    /// takes them as they are. Alpha is 0 where nothing is known yet, else 255.
+    pub rgba: Vec<u32>,
     /// The planes.
     pub frame: Arc<Frame>,
     /// What was found, and what it took.
@@ -54,9 +55,9 @@ pub fn settled(frame: &Frame, index: usize) -> bool {
 }
 
 /// The colours of a frame, opaque where they are settled (everywhere, if it is whole), and the legend of an overlay.
-pub(super) fn shown(frame: &Frame, look: &Look, overlay: Option<(Overlay, f64)>, whole: bool) -> (Vec<u8>, Vec<Kind>) {
+pub(super) fn shown(frame: &Frame, look: &Look, overlay: Option<(Overlay, f64)>, whole: bool) -> (Vec<u32>, Vec<Kind>) {
     let n = frame.verdict.len();
-    let mut rgba = Vec::with_capacity(4 * n);
+    let mut rgba = Vec::with_capacity(n);
     let alpha = |index: usize| if whole || settled(frame, index) { 255 } else { 0 };
     if let Some((overlay, tolerance)) = overlay {
         let legend = frame.legend(overlay, tolerance);
@@ -64,7 +65,7 @@ pub(super) fn shown(frame: &Frame, look: &Look, overlay: Option<(Overlay, f64)>,
         for (index, kind) in legend.kinds.iter().enumerate() {
             let [r, g, b] = legend.entries[*kind].0;
             counts[*kind] += 1;
-            rgba.extend(premultiplied([r, g, b], alpha(index)));
+            rgba.push(premultiplied([r, g, b], alpha(index)));
         }
         let entries = legend.entries.into_iter().zip(counts).map(|((color, text), count)| Kind { color, text, count });
         return (rgba, entries.collect());
@@ -77,11 +78,11 @@ pub(super) fn shown(frame: &Frame, look: &Look, overlay: Option<(Overlay, f64)>,
         _ => vec![0; 3 * n],
     };
     for (index, c) in codes.chunks_exact(3).enumerate() {
-        rgba.extend(premultiplied([c[0], c[1], c[2]], alpha(index)));
+        rgba.push(premultiplied([c[0], c[1], c[2]], alpha(index)));
     }
     (rgba, vec![])
 }
 
-fn premultiplied([r, g, b]: [u8; 3], alpha: u8) -> [u8; 4] {
-    if alpha == 0 { [0; 4] } else { [r, g, b, alpha] }
+fn premultiplied([r, g, b]: [u8; 3], alpha: u8) -> u32 {
+    if alpha == 0 { 0 } else { u32::from_ne_bytes([r, g, b, alpha]) }
 }

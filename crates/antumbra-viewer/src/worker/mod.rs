@@ -12,7 +12,7 @@ pub use pace::Pace;
 
 use crate::priority::step_back;
 use antumbra::{
-    render::{Method, Overlay, RunSpec},
+    render::{Frame, Method, Overlay, RunSpec},
     scene::{FileError, Scene, SceneFile},
 };
 use painter::{News, Painter};
@@ -96,6 +96,8 @@ struct Slot {
     /// It is the first picture of its job: a newer job does not stop it.
     patient: bool,
     quit: bool,
+    /// Frames to let go.
+    old: Vec<Arc<Frame>>,
 }
 
 impl Mailbox {
@@ -153,6 +155,12 @@ impl Worker {
         self.mailbox.news.notify_all();
     }
 
+    /// Takes a frame that is not looked at any more: letting go of that much memory takes milliseconds, which a window does not have.
+    pub fn give_back(&self, frame: Arc<Frame>) {
+        self.mailbox.slot().old.push(frame);
+        self.mailbox.news.notify_all();
+    }
+
     /// The next event, if there is one.
     #[must_use]
     pub fn event(&self) -> Option<Event> {
@@ -199,6 +207,13 @@ fn draw(mailbox: &Mailbox, run: RunSpec, tell: &dyn Fn(Event)) {
             loop {
                 if slot.quit {
                     return;
+                }
+                if !slot.old.is_empty() {
+                    let old = std::mem::take(&mut slot.old);
+                    drop(slot);
+                    drop(old);
+                    slot = mailbox.slot();
+                    continue;
                 }
                 if let Some(job) = slot.job.take() {
                     break Some(job);

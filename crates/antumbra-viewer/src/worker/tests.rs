@@ -37,9 +37,9 @@ fn the_last_picture_is_the_renderers_own() {
     let (images, refusal) = finish(&worker, 1);
     assert_eq!(refusal, None);
     assert!(images.len() >= 2 && images[0].size[0] < 256, "coarse first");
-    assert!(images.iter().all(|i| i.rgba.len() == 4 * i.size[0] * i.size[1]));
+    assert!(images.iter().all(|i| i.rgba.len() == i.size[0] * i.size[1]));
     let last = images.last().unwrap();
-    assert!(last.whole && last.last && last.rgba.chunks(4).all(|c| c[3] == 255));
+    assert!(last.whole && last.last && last.rgba.iter().all(|c| c.to_ne_bytes()[3] == 255));
     let scene = Arc::new(job.file.scene("formula").unwrap());
     let spec = RenderSpec { width: 256, height: 192, ..RenderSpec::default() };
     let mut renderer = Renderer::new(scene, spec, RunSpec::default()).unwrap();
@@ -164,5 +164,21 @@ fn unknown_light_is_not_shown() {
     (frame.lights[0].visible_lo[1], frame.lights[0].visible_hi[1]) = (0.0, 1.0);
     assert!(image::settled(&frame, 0) && !image::settled(&frame, 1));
     let (rgba, _) = image::shown(&frame, &antumbra::scene::Look::default(), None, false);
-    assert_eq!((rgba[3], rgba[7]), (255, 0));
+    assert_eq!((rgba[0].to_ne_bytes()[3], rgba[1]), (255, 0));
+}
+
+/// What a window has seen enough of is let go by this thread, also while there is nothing to draw.
+#[test]
+fn frames_are_given_back() {
+    let worker = worker();
+    worker.submit(job(1, "x^2 + y^2 + z^2 = 1"));
+    let (images, _) = finish(&worker, 1);
+    let frame = Arc::new(Frame::clone(&images[0].frame));
+    let gone = Arc::downgrade(&frame);
+    worker.give_back(frame);
+    let begun = Instant::now();
+    while gone.strong_count() > 0 {
+        assert!(begun.elapsed() < LONG, "nobody lets it go");
+        std::thread::yield_now();
+    }
 }

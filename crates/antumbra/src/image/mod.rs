@@ -17,6 +17,7 @@ mod movie;
 mod npy;
 mod plane;
 mod png;
+mod size;
 
 pub use self::{
     color::{code_8, code_16, codes_8, linear_from_srgb, srgb_from_linear},
@@ -25,6 +26,7 @@ pub use self::{
     npy::{npy_bytes, npy_header, plane_from_npy},
     plane::{Plane, Planes, Rounding, Samples},
     png::{Depth, Still, png_bytes, png_bytes_noted, png_codes, png_rows},
+    size::{MOST_PIXELS, MOST_SIDE, SizeError, check_size},
 };
 
 /// Name and version written into the header of every picture.

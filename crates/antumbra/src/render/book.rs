@@ -3,6 +3,7 @@ use super::by_proof::BLOCK;
 use super::crease::{Grids, apart};
 use super::frame::slide;
 use super::hits::Hits;
+use super::likely::likely;
 use super::pixel::{Edge, Hit, Known, Light, Pixel};
 use super::shade::{self, Lamp, Point};
 use super::task::Task;
@@ -188,16 +189,19 @@ impl Book {
     /// threads of the pool that this runs in.
     pub(super) fn put_colors(&mut self, task: &Task, pixels: &[usize], lit: bool) {
         let this = &*self;
-        let color = |&index: &usize| this.color(task, index, this.hits.at(index), lit.then_some(index));
+        let color = |&index: &usize| {
+            let visible = |light: usize| lit.then(|| this.frame.lights[light].visible(index));
+            this.color(task, index, this.hits.at(index), &visible)
+        };
         let colors: Vec<[f32; 3]> = pixels.par_iter().with_min_len(BLOCK * BLOCK).map(color).collect();
         for (&index, color) in pixels.iter().zip(colors) {
             self.frame.rgb[index] = color;
         }
     }
 
-    /// Colour of a pixel that shows one hit, or nothing. `lit_as` is the pixel whose light it has; before that is known
+    /// Colour of a pixel that shows one hit, or nothing. `visible` tells which fraction of a light reaches it; before that is known
     /// it is lit.
-    fn color(&self, task: &Task, index: usize, hit: Option<&Hit>, lit_as: Option<usize>) -> [f32; 3] {
+    fn color(&self, task: &Task, index: usize, hit: Option<&Hit>, visible: &dyn Fn(usize) -> Option<f64>) -> [f32; 3] {
         let (column, row) = task.place(index);
         let backdrop = shade::backdrop(&task.scene.backdrop, &task.film, column as f64 + 0.5, row as f64 + 0.5);
         let Some(hit) = hit else { return backdrop.map(|c| c as f32) };
@@ -207,11 +211,8 @@ impl Book {
         let finish = task.objects[object].finish;
         let point = Point { position, normal, color, finish, floor, touching };
         let camera = [task.film.camera.eye, task.scene.view.target];
-        let lights = task.lights.iter().zip(&task.full).zip(&self.frame.lights).map(|((light, full), planes)| Lamp {
-            light,
-            full: *full,
-            visible: lit_as.map(|at| planes.visible(at)),
-        });
+        let lights = task.lights.iter().zip(&task.full).enumerate();
+        let lights = lights.map(|(k, (light, full))| Lamp { light, full: *full, visible: visible(k) });
         shade::shade(&point, lights, &task.scene.sky, camera, backdrop, task.scale).map(|c| c as f32)
     }
 
@@ -246,16 +247,28 @@ impl Book {
         self.stats.edge_evaluations += cost.evaluations;
     }
 
-    /// The colours of pixels that depend on their neighbours, when those are known: of what may be a surface, and of edges.
+    /// The colours of pixels that depend on their neighbours, when those are known: of what may be a surface, of hits with open brackets, and
+    /// of edges. The paper's methods have none of them.
     pub(super) fn finish_colors(&mut self, task: &Task, pixels: Range<usize>) {
-        for index in pixels.clone() {
-            if let Some(hit) =
-                self.hits.at(index).copied().filter(|hit| task.method == Method::Certified && hit.receiver.is_none())
-            {
-                self.frame.rgb[index] = self.color(task, index, Some(&hit), None);
+        if task.method == Method::Certified {
+            for index in pixels.clone() {
+                let Some(hit) = self.hits.at(index) else { continue };
+                let color = if hit.receiver.is_none() {
+                    self.color(task, index, Some(hit), &|_| None)
+                } else if self.frame.lights.iter().any(|light| light.is_open(index, task.tolerance.width)) {
+                    self.color(task, index, Some(hit), &|light| Some(self.likely(task, light, index)))
+                } else {
+                    continue;
+                };
+                self.frame.rgb[index] = color;
             }
         }
         self.shade_edges(task, pixels);
+    }
+
+    /// The fraction of a light that a pixel is drawn with.
+    fn likely(&self, task: &Task, light: usize, index: usize) -> f64 {
+        likely(&self.hits, &self.frame, light, index, task.tolerance.width)
     }
 
     /// Smooth edges: the mean colour of the grid of rays of each pixel that an edge crosses. The light of a ray's hit is
@@ -267,7 +280,8 @@ impl Book {
             let mut sum = [0.0_f32; 3];
             for sub in &edge.rays {
                 let lit_as = sub.as_ref().and_then(|hit| self.light_near(task, index, hit));
-                let color = self.color(task, index, sub.as_ref(), lit_as);
+                let visible = |light| lit_as.map(|at| self.likely(task, light, at));
+                let color = self.color(task, index, sub.as_ref(), &visible);
                 (0..3).for_each(|c| sum[c] += color[c]);
             }
             let mut color = sum.map(|s| s / edge.rays.len() as f32);
@@ -275,14 +289,15 @@ impl Book {
                 && !self.is_near(task, index, thin.object)
                 && !edge.rays.iter().flatten().any(|hit| hit.object == thin.object)
             {
-                let veil = self.color(task, index, Some(thin), None);
+                let veil = self.color(task, index, Some(thin), &|_| None);
                 (0..3).for_each(|c| color[c] += THIN_WEIGHT * (veil[c] - color[c]));
             }
             if edge.rays.iter().all(Option::is_none)
                 && let Some(hit) = self.hits.at(index)
                 && !self.at_an_edge(task, index)
             {
-                let thin = self.color(task, index, Some(hit), self.light_near(task, index, hit));
+                let lit_as = self.light_near(task, index, hit);
+                let thin = self.color(task, index, Some(hit), &|light| lit_as.map(|at| self.likely(task, light, at)));
                 let weight = if self.frame.coverage_lo[index] > 0.0 { 1.0 } else { THIN_WEIGHT };
                 (0..3).for_each(|c| color[c] += weight * (thin[c] - color[c]));
             }

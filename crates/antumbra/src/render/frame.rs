@@ -49,9 +49,14 @@ pub struct LightPlanes {
 }
 
 impl LightPlanes {
-    /// Middle of the bracket: what a picture shows.
+    /// Middle of the bracket: what a picture shows, where the bracket is as narrow as was asked for.
     pub(super) fn visible(&self, index: usize) -> f64 {
         0.5 * (self.visible_lo[index] + self.visible_hi[index])
+    }
+
+    /// Whether the bracket is wider than the tolerance.
+    pub(super) fn is_open(&self, index: usize, tolerance: f64) -> bool {
+        self.visible_hi[index] - self.visible_lo[index] > tolerance * (1.0 + 1e-9)
     }
 }
 

@@ -1,8 +1,8 @@
 //! Pictures of what is known: verdicts, shadow classes, cost, widths of brackets; with a legend.
+use super::legend::Legend;
 use super::{Frame, LightPlanes};
 use crate::image::{COLOR_PLANE, Error, Plane, Planes, linear_from_srgb};
 use crate::verdict::{Reason, Verdict};
-use font8x8::UnicodeFonts;
 
 /// What to show.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -32,55 +32,25 @@ impl Overlay {
 /// Colour (sRGB) and meaning of one kind of pixel.
 type Entry = ([u8; 3], String);
 
-/// What an overlay shows, for those who draw it themselves.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Legend {
-    /// Colour (sRGB) and meaning of each kind of pixel.
-    pub entries: Vec<([u8; 3], String)>,
-    /// The kind of each pixel of the frame: an index among the entries.
-    pub kinds: Vec<usize>,
-}
-
-/// Height of a line of the legend, and size of a letter.
-const LINE: usize = 14;
-const LETTER: usize = 8;
-/// Column in which the text of the legend begins.
-const TEXT: usize = 22;
 const PAPER: [u8; 3] = [24, 24, 28];
-const INK: [u8; 3] = [232, 232, 232];
+const NOTHING: ([u8; 3], &str) = ([54, 58, 70], "no surface");
 
 impl Frame {
-    /// A picture of what is known, with a legend below it: planes that hold only the colours. `tolerance` is the width
-    /// from which a bracket counts as open.
+    /// A picture of what is known: planes that hold only the colours. Below it, in rows of its own, is a legend where one
+    /// [fits](Legend::fits). `tolerance` is the width from which a bracket counts as open.
     ///
     /// # Errors
     /// None for a frame whose planes have the lengths that [`Frame::new`] gave them; the type is that of planes.
     pub fn overlay(&self, overlay: Overlay, tolerance: f64) -> Result<Planes, Error> {
-        let Legend { entries, kinds } = self.legend(overlay, tolerance);
-        let lines: Vec<String> = entries
-            .iter()
-            .enumerate()
-            .map(|(k, (_, text))| format!("{text}: {}", kinds.iter().filter(|kind| **kind == k).count()))
-            .collect();
-        // A small picture gets a margin, so that its legend can be read.
-        let longest = lines.iter().map(String::len).max().unwrap_or(0);
-        let width = self.width.max(TEXT + longest * LETTER + 4);
-        let rows = self.height + entries.len() * LINE + 4;
-        let mut canvas = vec![PAPER; rows * width];
-        for (i, kind) in kinds.iter().enumerate() {
-            canvas[i / self.width * width + i % self.width] = entries[*kind].0;
-        }
-        for (k, ((color, _), line)) in entries.iter().zip(&lines).enumerate() {
-            let top = self.height + 3 + k * LINE;
-            for y in top..top + LETTER {
-                canvas[y * width + 4..y * width + 16].fill(*color);
-            }
-            write(&mut canvas, width, TEXT, top, line);
-        }
+        let legend = self.legend(overlay, tolerance);
+        let mut canvas: Vec<[u8; 3]> = legend.kinds.iter().map(|kind| legend.entries[*kind].0).collect();
+        let more = legend.rows(self.width, self.height).unwrap_or(0);
+        canvas.resize((self.height + more) * self.width, PAPER);
+        legend.draw(&mut canvas, self.width, self.height);
         let linear: Vec<f32> =
             canvas.iter().flatten().map(|code| linear_from_srgb(f64::from(*code) / 255.0) as f32).collect();
         let mut planes = Planes::new();
-        planes.add(Plane::with_channels(COLOR_PLANE, rows, width, 3, linear)?)?;
+        planes.add(Plane::with_channels(COLOR_PLANE, self.height + more, self.width, 3, linear)?)?;
         Ok(planes)
     }
 
@@ -90,11 +60,21 @@ impl Frame {
         let (entries, kinds) = match overlay {
             Overlay::Verdict => self.by_verdict(),
             Overlay::Shadow => self.by_shadow(tolerance),
-            Overlay::Cost => self.by_scale("evaluations", |i| f64::from(self.cost[i]), |e| format!("{}", 1_u64 << e)),
+            Overlay::Cost => {
+                let (mut entries, kinds) =
+                    self.by_scale("cost", |i| f64::from(self.cost[i]), |e| format!("{}", 1_u64 << e));
+                entries[0].1 += " evaluations";
+                (entries, kinds)
+            }
             Overlay::Width => {
                 let of = |l: &LightPlanes, i: usize| l.visible_hi[i] - l.visible_lo[i];
                 let width = |i: usize| self.lights.iter().map(|l| of(l, i)).fold(0.0, f64::max) * 65_536.0;
-                self.by_scale("bracket width", width, |e| format!("2^{}", e as i32 - 16))
+                let (mut entries, mut kinds) = self.by_scale("width", width, |e| format!("2^{}", e as i32 - 16));
+                entries.insert(0, (NOTHING.0, NOTHING.1.to_owned()));
+                for (kind, t) in kinds.iter_mut().zip(&self.t_lo) {
+                    *kind = if t.is_nan() { 0 } else { *kind + 1 };
+                }
+                (entries, kinds)
             }
         };
         Legend { entries, kinds }
@@ -106,7 +86,7 @@ impl Frame {
         let table: [(u8, [u8; 3], &str); 8] = [
             (code(Verdict::No), [54, 58, 70], "empty (proved)"),
             (code(Verdict::Yes), [226, 196, 150], "hit (proved)"),
-            (Frame::PARTLY, [120, 190, 120], "edge: centre missed, other rays hit (proved)"),
+            (Frame::PARTLY, [120, 190, 120], "edge (proved)"),
             (open(Reason::Resolution), [240, 200, 40], "undecided: resolution"),
             (open(Reason::Touching), [190, 80, 220], "undecided: touching"),
             (open(Reason::Domain), [230, 70, 60], "undecided: domain"),
@@ -119,7 +99,7 @@ impl Frame {
 
     fn by_shadow(&self, tolerance: f64) -> (Vec<Entry>, Vec<usize>) {
         let entries = [
-            ([54, 58, 70], "no surface"),
+            NOTHING,
             ([250, 236, 180], "lit (all of each light)"),
             ([214, 96, 60], "penumbra (a part of them)"),
             ([40, 52, 120], "dark (none of any)"),
@@ -151,7 +131,8 @@ impl Frame {
         const STEPS: usize = 17;
         let mut entries: Vec<Entry> = (0..STEPS)
             .map(|e| {
-                let x = e as f64 / (STEPS - 1) as f64;
+                // Most pixels are on the first steps: those differ more.
+                let x = (e as f64 / (STEPS - 1) as f64).sqrt();
                 let ramp = |from: f64, to: f64| (255.0 * ((x - from) / (to - from)).clamp(0.0, 1.0)) as u8;
                 (
                     [ramp(0.1, 0.7), ramp(0.35, 1.0), ramp(-0.3, 0.5) / 2 + ramp(0.8, 1.0) / 2],
@@ -174,40 +155,26 @@ fn log2(x: f64) -> f64 {
     core_math::log2(x)
 }
 
-/// Writes a line of text.
-fn write(canvas: &mut [[u8; 3]], width: usize, left: usize, top: usize, text: &str) {
-    for (k, letter) in text.chars().enumerate() {
-        let Some(glyph) = font8x8::BASIC_FONTS.get(letter) else { continue };
-        for (y, bits) in glyph.into_iter().enumerate() {
-            for x in (0..LETTER).filter(|x| bits >> x & 1 == 1) {
-                canvas[(top + y) * width + left + k * LETTER + x] = INK;
-            }
-        }
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
     fn every_overlay_has_a_legend_and_colours_by_kind() {
-        let mut frame = Frame::new(200, 3, 1).unwrap();
+        let mut frame = Frame::new(300, 300, 1).unwrap();
         frame.verdict.fill(0);
-        frame.verdict[5] = 1;
+        (frame.verdict[5], frame.t_lo[5]) = (1, 1.0);
         (frame.lights[0].visible_lo[5], frame.lights[0].visible_hi[5]) = (0.25, 0.5);
         frame.cost[5] = 1000;
         for (overlay, name) in Overlay::ALL {
             assert_eq!(Overlay::from_name(name), Some(overlay));
             let planes = frame.overlay(overlay, 0.01).unwrap();
             let plane = planes.require(COLOR_PLANE).unwrap();
-            assert!(plane.rows() > 3 + 4 * LINE && plane.columns() >= 200);
+            assert!(plane.rows() > 300 + 4 * 14 && plane.columns() == 300);
             let crate::image::Samples::F32(v) = plane.samples() else { panic!("single precision") };
             assert_ne!(v[..3], v[15..18], "{name}: the special pixel looks different");
-            assert!(
-                v[3 * plane.columns() * 3..].contains(&(linear_from_srgb(232.0 / 255.0) as f32)),
-                "{name}: no letters"
-            );
+            let ink = linear_from_srgb(232.0 / 255.0) as f32;
+            assert!(v[3 * 300 * 300..].contains(&ink) && !v[..3 * 300 * 300].contains(&ink), "{name}: no letters");
         }
         assert_eq!(frame.by_shadow(0.01).1[5], 4);
         assert_eq!(frame.by_shadow(0.25).1[5], 2);

@@ -1,4 +1,5 @@
 //! What to draw and how to run.
+use crate::image::{SizeError, check_size};
 use crate::paper;
 use crate::shadow::Penumbra;
 use crate::trace::Bisection;
@@ -131,6 +132,9 @@ pub enum Error {
         /// What it is.
         value: String,
     },
+    /// Width and height are not those of a picture.
+    #[error(transparent)]
+    Size(#[from] SizeError),
     /// The threads could not be started.
     #[error("the threads could not be started: {0}")]
     Threads(String),
@@ -153,11 +157,7 @@ impl RenderSpec {
     /// The first number that is outside.
     pub fn validate(&self) -> Result<(), Error> {
         let bad = |what, range, value: String| Err(Error::OutOfRange { what, range, value });
-        for (what, n) in [("the width", self.width), ("the height", self.height)] {
-            if !(1..=65_536).contains(&n) {
-                return bad(what, "1 to 65536 pixels", n.to_string());
-            }
-        }
+        check_size([self.width, self.height])?;
         if !(1..=512).contains(&self.grid) {
             return bad("the grid", "1 to 512 cells", self.grid.to_string());
         }

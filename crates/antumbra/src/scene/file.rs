@@ -4,6 +4,7 @@ use super::place::advice;
 use super::{About, Backdrop, Colors, Exposure, Light, Look, Object, Output, Scene, Sky, View, framing};
 use crate::expr::is_name;
 use crate::geom::Clip;
+use crate::image::check_size;
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -326,10 +327,8 @@ fn check_look(scene: &Scene) -> Result<(), FileError> {
             format!("must be \"auto\" or from -{0} to {0} stops", Exposure::MOST),
         ));
     }
-    if let Some(size) = scene.output.size
-        && !size.iter().all(|n| (1..=65_536).contains(n))
-    {
-        return Err(value_error("output.size", "width and height must be from 1 to 65536 pixels"));
+    if let Some(size) = scene.output.size {
+        check_size(size).map_err(|e| value_error("output.size", e.to_string()))?;
     }
     if let Some(tolerance) = scene.output.tolerance
         && !(1e-9..=1.0).contains(&tolerance)
