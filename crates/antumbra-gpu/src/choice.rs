@@ -10,8 +10,7 @@ use std::sync::atomic::AtomicBool;
 /// Pixels of the sample, about. Pictures of fewer than four times as many are not worth a measurement.
 const SAMPLE: usize = 4096;
 
-/// Seconds of the processor for what the GPU leaves: a pixel, or a bracket. Those that are left are the slow ones: presets at 256 x 256
-/// took 20 to 200 microseconds each on one thread.
+/// Seconds of the processor for what the GPU leaves, a pixel or a bracket: an estimate, as it depends on the scene. It changes no claim.
 const LEFT: f64 = 1e-4;
 
 /// What a width costs, by a sample of the picture.
