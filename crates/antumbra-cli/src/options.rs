@@ -138,6 +138,8 @@ impl RenderOptions {
         }
         let (mut spec, run) = specs(args.spec, args.method, scene.scene.output);
         spec.floor |= scene.scene.floor_shown;
+        // A GPU takes few surfaces, of any length.
+        spec.unions &= args.device == Device::Cpu;
         Ok(Self {
             scene,
             look: args.look,

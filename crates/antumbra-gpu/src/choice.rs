@@ -58,16 +58,11 @@ pub async fn chosen<M: Machine>(
     let side = |pixels: usize| ((pixels as f64 / step) as usize).max(1);
     let sample = Film { width: side(film.width), height: side(film.height), ..*film };
     let single = measure(gpu, compile(&sample, Width::Single)?, stop, *tolerance).await?;
-    let double = match compile(&sample, Width::Double) {
-        Ok(kernels) => measure(gpu, kernels, stop, *tolerance).await,
-        Err(error) => Err(error),
+    // What 64 bits do not have, 32 do. A device that fails while it runs them is believed no more in 32.
+    let Ok(kernels) = compile(&sample, Width::Double) else {
+        return Ok((compile(film, Width::Single)?, Width::Single, None));
     };
-    let double = match double {
-        Ok(double) => double,
-        Err(Error::Stopped) => return Err(Error::Stopped),
-        // What 64 bits do not have, or cannot do here, 32 do.
-        Err(_) => return Ok((compile(film, Width::Single)?, Width::Single, None)),
-    };
+    let double = measure(gpu, kernels, stop, *tolerance).await?;
     let width = if double.cost() < single.cost() { Width::Double } else { Width::Single };
     Ok((compile(film, width)?, width, Some([single, double])))
 }

@@ -15,6 +15,8 @@ const PATIENCE = 1000;
 const SHARE_FROM = 4000;
 /** A picture that will take fewer milliseconds is not worth compiling kernels. */
 const GPU_FROM = 500;
+/** A GPU that would take so many times as long as the processor is left. */
+const SLOW = 4;
 /** Devices that are lost before no other one is asked for. */
 const LOSSES = 3;
 /** How much longer a picture of n times as many pixels takes: n to this power, for the paper's surfaces. */
@@ -144,6 +146,7 @@ async function openGpu(software) {
     const { name } = machine.about;
     engine.gpuOpen(machine.about);
     const { state, cases, message } = await decide(engine, machine);
+    if (machine.lost && (losses += 1) < LOSSES) gpu = null;
     return state === "passed" ? { machine, name, cases } : { message };
   } catch (error) {
     return { message: error.message };
@@ -159,10 +162,15 @@ async function consult(id, forecast, wanted) {
   const say = (told) => postMessage({ type: "gpu", id, ...told });
   const any = wanted === "any";
   let working = any;
-  const late = () => !working && performance.now() - began >= forecast;
+  let progress = 0;
+  // A GPU that is at work is left where it would take several times as long, or hangs.
+  const late = () => {
+    const spent = performance.now() - began;
+    return !any && spent >= forecast && (!working || spent > SLOW * forecast * progress);
+  };
   const gone = () => next !== null || late();
   const woken = (resolve) => (wake = resolve);
-  const timer = any ? 0 : setTimeout(() => wake(), forecast + 1);
+  const timer = setInterval(() => wake(), 100);
   gpu ??= openGpu(any);
   let trusted = null;
   gpu.then((answer) => {
@@ -171,29 +179,31 @@ async function consult(id, forecast, wanted) {
   });
   await breathe();
   if (!trusted) say({ state: "opening" });
+  const light = !any && forecast < GPU_FROM;
   while (!trusted && !gone()) await new Promise(woken);
   const { machine, name, cases, message } = trusted ?? { message: "the GPU is still being asked" };
   const stays = (reason) => {
-    clearTimeout(timer);
+    clearInterval(timer);
     if (!next) say({ state: "processor", name, cases, message: reason });
     return false;
   };
   if (!machine || next) return stays(message);
-  if (!any && forecast < GPU_FROM) return stays("a picture as light as this one is left to it");
+  if (light) return stays("a picture as light as this one is left to it");
   const refusal = engine.gpuBegin();
   if (refusal) return stays(refusal);
-  const told = ({ progress }) => {
+  const told = (step) => {
+    progress = step.progress;
     working ||= progress > 0;
     say({ state: "waits", name, cases, progress });
   };
   const step = await decide(engine, machine, { gone, woken, told });
   if (!step) {
     engine.gpuLeave();
-    return stays("kernels for this formula are still being compiled");
+    return stays(working ? "the GPU is slower than it" : "kernels for this formula are still being compiled");
   }
   if (machine.lost && (losses += 1) < LOSSES) gpu = null;
   if (step.state !== "proved") return stays(step.message);
-  clearTimeout(timer);
+  clearInterval(timer);
   say({ name, cases, ...step });
   return true;
 }

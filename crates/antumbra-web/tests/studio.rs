@@ -37,7 +37,7 @@ fn what_is_refused_leaves_the_picture_that_is_there() {
     for (change, part) in [
         (json!({ "scene": "x +" }), "end"),
         (json!({ "width": 100_000, "height": 100_000 }), "at most"),
-        (json!({ "width": 0 }), "the width must be"),
+        (json!({ "width": 0 }), "at least 1 pixel"),
         (json!({ "camera": eye }), "camera"),
         (json!({ "light": { "center": [0, 0, 5], "scale": -1 } }), "light"),
         (json!({ "set": { "a": 1 } }), "no parameters"),

@@ -62,9 +62,9 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         before => Some(Rows::open(options, before)?),
     };
     let asking = Asking::first(renderer.stop_flag());
+    let deadline = deadline(options.budget);
     device::prepare(options.device, options.spec.method, &mut renderer, options.quiet)?;
     let progress = Progress::new(options.quiet, options.spec.method.name());
-    let deadline = deadline(options.budget);
     let end = loop {
         let end = pursue(&mut renderer, deadline, Some(&progress), &mut |r| unfinished.save_now_and_then(r));
         if let (End::Done, Some(bands), Some((rows, frame))) = (end, &mut bands, renderer.finished_rows()) {
