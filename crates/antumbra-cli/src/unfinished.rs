@@ -112,6 +112,11 @@ impl Unfinished {
         Ok(Renderer::new(Arc::clone(scene), spec.clone(), run)?)
     }
 
+    /// What was here of another render cannot be gone on with any more: it goes with this one.
+    pub(crate) fn take_over(&mut self) {
+        self.own = true;
+    }
+
     /// Saves if it is time. That it cannot be saved is said, and no reason to stop.
     pub(crate) fn save_now_and_then(&mut self, renderer: &Renderer) {
         if !self.possible || self.saved.elapsed() < self.every {

@@ -39,6 +39,11 @@ pub(super) fn prepare(device: Device, method: Method, renderer: &mut Renderer, q
         Err(error) if device == Device::Gpu => {
             return Err(anyhow!("--device gpu: {error}; --device auto goes on with the processor"));
         }
+        Err(Error::NoAdapter) => {
+            let played = "one that a processor plays is asked only with --device gpu";
+            say(format!("the processor does it: there is no GPU with a driver ({played})"));
+            return Ok(());
+        }
         Err(error) => {
             say(format!("the processor does it: {error}"));
             return Ok(());

@@ -69,6 +69,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
         let end = pursue(&mut renderer, deadline, Some(&progress), &mut |r| unfinished.save_now_and_then(r));
         if let (End::Done, Some(bands), Some((rows, frame))) = (end, &mut bands, renderer.finished_rows()) {
             bands.put(&rows, &frame, options)?;
+            unfinished.take_over();
         }
         if end != End::Done || !renderer.next_band() {
             break end;
