@@ -116,25 +116,30 @@ pub(super) fn region(f: &dyn Inclusion, clip: &Clip) -> Clip {
     Clip::Box(region)
 }
 
-/// Hull of the cells of `region` in which f may be zero: by its range, and by the mean value form.
+/// Hull of the cells of `region` in which f may be zero.
 fn hull_of_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace) -> Option<Box3> {
+    let mut hull: Option<Box3> = None;
+    for_cells_with_zeros(f, region, work, |cell| hull = Some(hull.map_or(cell, |h| h.hull(cell))));
+    hull
+}
+
+/// The cells of `region` in which f may be zero: by its range, and by the mean value form.
+fn for_cells_with_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace, mut found: impl FnMut(Box3)) {
     let edge = |axis: usize, k: usize| {
         let (lo, hi) = (Interval::point(region[axis].lo()), Interval::point(region[axis].hi()));
         lo + (hi - lo) * (Interval::point(k as f64) / Interval::point(CELLS as f64))
     };
     let slab = |axis: usize, k: usize| edge(axis, k).hull(edge(axis, k + 1));
-    let mut hull: Option<Box3> = None;
     for k in 0..CELLS {
         for j in 0..CELLS {
             for i in 0..CELLS {
                 let cell = Box3([slab(0, i), slab(1, j), slab(2, k)]);
                 if f.range(&cell, work).possibly_zero() && centred_range(f, &cell, work).possibly_zero() {
-                    hull = Some(hull.map_or(cell, |h| h.hull(cell)));
+                    found(cell);
                 }
             }
         }
     }
-    hull
 }
 
 /// Where everything is: what an automatic camera goes by.
@@ -142,6 +147,8 @@ pub(super) struct Stage {
     bounds: Box3,
     /// The clips cut nothing away.
     whole: bool,
+    /// Nothing that is seen is farther from the middle, where the clips cut nothing away.
+    farthest: f64,
     /// Middle of everything.
     pub(super) centre: Vec3,
     /// Half the largest edge of the box around it.
@@ -158,7 +165,8 @@ impl Stage {
         let bounds = objects.iter().map(|o| o.clip().bounds()).reduce(Box3::hull).unwrap_or(Box3::cube(1.0));
         let whole = objects.iter().all(|o| o.region() != o.clip());
         let radius = bounds.half_extent().0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-        Self { bounds, whole, centre: bounds.mid(), radius }
+        let farthest = objects.iter().map(|o| farthest(o, bounds.mid())).fold(0.0, f64::max);
+        Self { bounds, whole, farthest, centre: bounds.mid(), radius }
     }
 
     /// The usual distance of the camera.
@@ -167,9 +175,11 @@ impl Stage {
     }
 
     /// How far from a target there is something to see: all of the box where it cuts surfaces off; where they are whole, the
-    /// ellipsoid inside and a margin (corners are mostly empty then).
+    /// ellipsoid inside and a margin (corners are mostly empty then), or as far as the surface goes, as a cube does.
     fn reach(&self, target: Vec3) -> f64 {
-        self.bounds.half_extent().length() * if self.whole { 0.78 } else { 1.0 } + (target - self.centre).length()
+        let corner = self.bounds.half_extent().length();
+        let seen = if self.whole { (0.78 * corner).max(1.04 * self.farthest.min(corner)) } else { corner };
+        seen + (target - self.centre).length()
     }
 
     /// The full angle, in degrees, that shows all of that.
@@ -181,6 +191,21 @@ impl Stage {
     pub(super) fn width(&self, target: Vec3) -> f64 {
         2.0 * self.reach(target)
     }
+}
+
+/// Distance from a point beyond which an object has nothing in its clip, up to a sixteenth of the clip; 0 for long formulas, which are not searched.
+fn farthest(object: &Object, from: Vec3) -> f64 {
+    let (f, bounds) = (object.surface.as_ref(), object.clip().bounds());
+    let mut most = 0.0_f64;
+    if f.operations() <= WORK / (50 * CELLS * CELLS * CELLS)
+        && bounds.0.iter().all(|side| side.magnitude() < f64::INFINITY)
+    {
+        for_cells_with_zeros(f, bounds, &mut Workspace::default(), |cell| {
+            let corner: [f64; 3] = std::array::from_fn(|k| (cell[k].hi() - from[k]).max(from[k] - cell[k].lo()));
+            most = most.max(Vec3(corner).length());
+        });
+    }
+    most
 }
 
 /// A scene around objects, at least one: the camera sees everything; a square light of a tenth of the picture's width (paper,
@@ -216,6 +241,21 @@ mod tests {
             for axis in 0..3 {
                 assert!(b[axis].hi() >= half && b[axis].hi() < 1.2 * half, "{text}: {:?}", b[axis]);
             }
+        }
+    }
+
+    #[test]
+    fn a_camera_that_frames_itself_shows_corners_too() {
+        let view = |text: &str| {
+            let scene = Scene::from_formula(text).unwrap();
+            (scene.view.fov_deg, scene.view.camera(1.0))
+        };
+        let ((ball, _), (cube, camera)) = (view("x^2 + y^2 + z^2 = 1"), view("max(abs(x), max(abs(y), abs(z))) = 1"));
+        assert!(ball < 28.0 && cube > ball, "{ball} {cube}");
+        for k in 0..8 {
+            let side = |bit: usize| if k >> bit & 1 == 1 { 1.0 } else { -1.0 };
+            let ([x, y], _) = camera.project(Vec3::new(side(0), side(1), side(2))).unwrap();
+            assert!(x.abs() < 1.0 && y.abs() < 1.0, "corner {k} at {x}, {y}");
         }
     }
 
