@@ -13,7 +13,7 @@ use std::{
 
 use antumbra::{
     image::{COLOR_PLANE, Depth, npy_bytes, npy_header, png_codes, png_rows},
-    render::{Frame, Renderer, fingerprint},
+    render::{Frame, RenderSpec, Renderer, fingerprint},
     scene::Exposure,
 };
 use anyhow::{Context, Result, anyhow, bail};
@@ -99,7 +99,8 @@ impl Rows {
             Err(_) if fs::symlink_metadata(&folder).is_ok_and(|found| found.is_dir()) => {}
             made => made.with_context(|| format!("cannot make the folder `{shown}`"))?,
         }
-        let print = fingerprint(&options.scene.scene, &options.spec)?;
+        // As of a state: both go on as they began.
+        let print = fingerprint(&options.scene.scene, &RenderSpec { unions: true, ..options.spec.clone() })?;
         let (width, height) = (options.spec.width, options.spec.height);
         let planes = options.planes.is_some().then(|| Frame::plane_names(options.scene.scene.lights.len()));
         let names = std::iter::once(picture_name(depth).to_owned()).chain(planes.into_iter().flatten());

@@ -70,6 +70,11 @@ struct Header {
 }
 
 impl Header {
+    /// Of a state: whether unions are divided is in the state itself, so that it goes on as it began.
+    fn of_state(scene: &Scene, spec: &RenderSpec) -> Result<Self, StateError> {
+        Self::new(scene, &RenderSpec { unions: true, ..spec.clone() })
+    }
+
     fn new(scene: &Scene, spec: &RenderSpec) -> Result<Self, StateError> {
         let text = SceneFile::of(scene).text().map_err(|e| io::Error::other(e.to_string()))?;
         Ok(Self {
@@ -166,7 +171,7 @@ pub(super) fn write(
     how_far: &Stopped<&Book>,
     out: &mut dyn Write,
 ) -> Result<(), StateError> {
-    let header = postcard::to_stdvec(&Header::new(scene, spec)?).map_err(io::Error::other)?;
+    let header = postcard::to_stdvec(&Header::of_state(scene, spec)?).map_err(io::Error::other)?;
     let length = u32::try_from(header.len()).ok().filter(|n| *n <= MAX_HEADER);
     let length = length.ok_or_else(|| io::Error::other("the text of the scene is too long"))?;
     let mut out = Hashing { out, hasher: blake3::Hasher::new() };
@@ -212,7 +217,7 @@ pub(super) fn read(scene: &Scene, spec: &RenderSpec, input: &mut (impl Read + Se
     let mut header = vec![0; size as usize];
     input.read_exact(&mut header).map_err(cut_off(StateError::Damaged))?;
     let header: Header = postcard::from_bytes(&header).map_err(|_| StateError::Damaged)?;
-    header.require(&Header::new(scene, spec)?)?;
+    header.require(&Header::of_state(scene, spec)?)?;
     // Room for the names in it; numbers need none.
     let mut names = [0; 1024];
     let content = lz4_flex::frame::FrameDecoder::new(input);
