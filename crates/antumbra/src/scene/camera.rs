@@ -39,7 +39,7 @@ impl View {
 
 impl CameraEntry {
     /// The camera, on a stage that says where everything is.
-    pub(super) fn view(&self, stage: &Stage) -> Result<View, FileError> {
+    pub(super) fn view(&self, stage: &Stage<'_>) -> Result<View, FileError> {
         let Self { eye, from, target, angle, orthographic, width } = *self;
         for (name, numbers) in [("eye", eye), ("from", from), ("target", target)] {
             finite(&format!("camera.{name}"), &numbers.unwrap_or_default())?;

@@ -119,12 +119,18 @@ pub(super) fn region(f: &dyn Inclusion, clip: &Clip) -> Clip {
 /// Hull of the cells of `region` in which f may be zero.
 fn hull_of_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace) -> Option<Box3> {
     let mut hull: Option<Box3> = None;
-    for_cells_with_zeros(f, region, work, |cell| hull = Some(hull.map_or(cell, |h| h.hull(cell))));
+    for_cells_with_zeros(f, region, work, |_| true, |cell| hull = Some(hull.map_or(cell, |h| h.hull(cell))));
     hull
 }
 
-/// The cells of `region` in which f may be zero: by its range, and by the mean value form.
-fn for_cells_with_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace, mut found: impl FnMut(Box3)) {
+/// Those `wanted` cells of `region` in which f may be zero: by its range, and by the mean value form.
+fn for_cells_with_zeros(
+    f: &dyn Inclusion,
+    region: Box3,
+    work: &mut Workspace,
+    wanted: impl Fn(&Box3) -> bool,
+    mut found: impl FnMut(Box3),
+) {
     let edge = |axis: usize, k: usize| {
         let (lo, hi) = (Interval::point(region[axis].lo()), Interval::point(region[axis].hi()));
         lo + (hi - lo) * (Interval::point(k as f64) / Interval::point(CELLS as f64))
@@ -134,7 +140,10 @@ fn for_cells_with_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace, m
         for j in 0..CELLS {
             for i in 0..CELLS {
                 let cell = Box3([slab(0, i), slab(1, j), slab(2, k)]);
-                if f.range(&cell, work).possibly_zero() && centred_range(f, &cell, work).possibly_zero() {
+                if wanted(&cell)
+                    && f.range(&cell, work).possibly_zero()
+                    && centred_range(f, &cell, work).possibly_zero()
+                {
                     found(cell);
                 }
             }
@@ -143,30 +152,28 @@ fn for_cells_with_zeros(f: &dyn Inclusion, region: Box3, work: &mut Workspace, m
 }
 
 /// Where everything is: what an automatic camera goes by.
-pub(super) struct Stage {
+pub(super) struct Stage<'a> {
+    objects: &'a [Object],
     bounds: Box3,
     /// The clips cut nothing away.
     whole: bool,
-    /// Nothing that is seen is farther from the middle, where the clips cut nothing away.
-    farthest: f64,
     /// Middle of everything.
     pub(super) centre: Vec3,
     /// Half the largest edge of the box around it.
     radius: f64,
 }
 
-impl Stage {
+impl<'a> Stage<'a> {
     /// From where one looks: from the front, a little to the right and above. No small integers: many a plane, x = z for
     /// one, would be seen from its edge. Times the radius it is the usual distance.
     pub(super) const FROM: Vec3 = Vec3([2.6, -4.3, 2.9]);
 
     /// That of objects, at least one.
-    pub(super) fn of(objects: &[Object]) -> Self {
+    pub(super) fn of(objects: &'a [Object]) -> Self {
         let bounds = objects.iter().map(|o| o.clip().bounds()).reduce(Box3::hull).unwrap_or(Box3::cube(1.0));
         let whole = objects.iter().all(|o| o.region() != o.clip());
         let radius = bounds.half_extent().0.into_iter().fold(0.0, f64::max).max(f64::MIN_POSITIVE);
-        let farthest = objects.iter().map(|o| farthest(o, bounds.mid())).fold(0.0, f64::max);
-        Self { bounds, whole, farthest, centre: bounds.mid(), radius }
+        Self { objects, bounds, whole, centre: bounds.mid(), radius }
     }
 
     /// The usual distance of the camera.
@@ -178,7 +185,8 @@ impl Stage {
     /// ellipsoid inside and a margin (corners are mostly empty then), or as far as the surface goes, as a cube does.
     fn reach(&self, target: Vec3) -> f64 {
         let corner = self.bounds.half_extent().length();
-        let seen = if self.whole { (0.78 * corner).max(1.04 * self.farthest.min(corner)) } else { corner };
+        let farthest = || self.objects.iter().map(|o| farthest(o, self.centre, 0.75 * corner)).fold(0.0, f64::max);
+        let seen = if self.whole { (0.78 * corner).max(1.04 * farthest().min(corner)) } else { corner };
         seen + (target - self.centre).length()
     }
 
@@ -193,17 +201,17 @@ impl Stage {
     }
 }
 
-/// Distance from a point beyond which an object has nothing in its clip, up to a sixteenth of the clip; 0 for long formulas, which are not searched.
-fn farthest(object: &Object, from: Vec3) -> f64 {
+/// Distance from a point beyond which an object has nothing in its clip, up to a sixteenth of the clip, where that is more than `least`; 0 where
+/// it is not, and for long formulas, which are not searched.
+fn farthest(object: &Object, from: Vec3, least: f64) -> f64 {
     let (f, bounds) = (object.surface.as_ref(), object.clip().bounds());
+    let distance =
+        |cell: &Box3| Vec3(std::array::from_fn(|k| (cell[k].hi() - from[k]).max(from[k] - cell[k].lo()))).length();
     let mut most = 0.0_f64;
-    if f.operations() <= WORK / (50 * CELLS * CELLS * CELLS)
-        && bounds.0.iter().all(|side| side.magnitude() < f64::INFINITY)
-    {
-        for_cells_with_zeros(f, bounds, &mut Workspace::default(), |cell| {
-            let corner: [f64; 3] = std::array::from_fn(|k| (cell[k].hi() - from[k]).max(from[k] - cell[k].lo()));
-            most = most.max(Vec3(corner).length());
-        });
+    let bounded = bounds.0.iter().all(|side| side.magnitude() < f64::INFINITY);
+    if bounded && f.operations() <= WORK / (50 * CELLS * CELLS * CELLS) {
+        let far = |cell: &Box3| distance(cell) > least;
+        for_cells_with_zeros(f, bounds, &mut Workspace::default(), far, |cell| most = most.max(distance(&cell)));
     }
     most
 }
