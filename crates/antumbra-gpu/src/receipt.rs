@@ -5,7 +5,7 @@
 //! number that no other group of this program has; the last thing that it does is to add the hash of its ticket to a sum in memory, and
 //! nothing is believed before that sum is the one of all tickets. A dispatch that was left out, done in part, done twice, or done with the
 //! numbers of another one, because those of its own did not arrive, makes another sum (but for 1 case in 2^32). What is uploaded once bears a
-//! seal, a number that counts in all hashes.
+//! seal, a number that counts in all hashes (there are 65,535). That what is read back was copied is the driver's word.
 use crate::error::Error;
 use std::hash::{BuildHasher, RandomState};
 use std::sync::OnceLock;
