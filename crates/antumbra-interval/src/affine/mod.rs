@@ -166,6 +166,36 @@ impl<const N: usize> Affine<N> {
     }
 }
 
+/// Where a function may be 0 along one of its symbols.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Crossing {
+    /// At values of the symbol outside of these, and at their ends within `(-1, 1)`, the function is nowhere 0.
+    pub zeros: Interval,
+    /// Whether it is negative before and positive behind them; else it is positive before and negative behind.
+    pub rises: bool,
+}
+
+impl<const N: usize> Affine<N> {
+    /// Where the function may be 0 along symbol `i`, whatever the other symbols are. None where the form does not vary with it,
+    /// says nothing, or is 0 nowhere. Panics unless `i < N`.
+    ///
+    /// A zero has `|c + a_i s_i| <= r`, `r` the largest sum of what the other symbols and the error bring: `s_i` is in
+    /// `([-r, r] - c)/a_i`. One step outward makes the ends strict.
+    #[must_use]
+    pub fn crossing(&self, i: usize) -> Option<Crossing> {
+        let slope = self.a[i];
+        if !self.is_known() || slope == 0.0 {
+            return None;
+        }
+        let others = Self { a: std::array::from_fn(|k| if k == i { 0.0 } else { self.a[k] }), ..*self };
+        let r = others.radius();
+        let zeros = (Interval::new(-r, r) - Interval::point(self.c)) / Interval::point(slope);
+        let within = Interval::new(-1.0, 1.0);
+        let zeros = Interval::new(zeros.lo().next_down(), zeros.hi().next_up()).intersection(within);
+        (!zeros.is_empty()).then_some(Crossing { zeros, rises: slope > 0.0 })
+    }
+}
+
 impl<const N: usize> From<Interval> for Affine<N> {
     fn from(k: Interval) -> Self {
         Self::constant(k)

@@ -18,7 +18,7 @@ use crate::verdict::Reason;
 use antumbra_interval::Interval;
 
 /// Blocks up to this side whose frustum is covered by one simple piece are not divided further.
-const SIMPLE: usize = 4;
+const SIMPLE: usize = 8;
 /// A pixel that an edge crosses is divided this often, for the bounds of its coverage.
 const COVERAGE_LEVELS: u32 = 2;
 /// Cosine between normals within a pixel from which it is shown as one surface.

@@ -1,7 +1,8 @@
 //! Frusta of the camera: which parts of which rays may meet which surface (certified, first order). Many frusta in lockstep, so
 //! that evaluations come in batches.
+use super::crossing::contract;
 use super::piece::certainly_continuous;
-use super::policy::{FRUSTUM_EVALUATIONS, Reach, Shape, cut};
+use super::policy::{FRUSTUM_EVALUATIONS, Reach, Shape, curved, cut, smaller};
 use super::{Cost, Piece, Sign, Surface};
 use crate::eval::{FanPiece, Workspace};
 use crate::geom::{Box3, Fan, Passage};
@@ -80,6 +81,15 @@ pub struct Frusta {
     forms: Vec<Affine<3>>,
 }
 
+/// A part of the rays of a frustum that comes next.
+#[derive(Clone, Copy, Debug)]
+enum Next {
+    /// To be looked at.
+    Look(Interval),
+    /// No surface there: a sign of f on all rays.
+    Free(Interval, Sign),
+}
+
 /// The search in one frustum.
 #[derive(Debug)]
 struct Search {
@@ -87,7 +97,7 @@ struct Search {
     cost: Cost,
     /// The piece that is being looked at; `None` when all is done.
     asked: Option<Interval>,
-    stack: Vec<Interval>,
+    stack: Vec<Next>,
     shape: Shape,
     directions: Box3,
     /// Of the surface that is looked for: its index, the first of the parent's pieces that follow, where it may be.
@@ -102,7 +112,8 @@ struct Search {
 /// Looks at frusta and settles as much of their open pieces as pays; what is then known of each, and what it cost, in their
 /// order. The `Known` may be taken; what is left in its place does not matter.
 ///
-/// A piece in which the enclosure of f excludes 0 holds no surface (wherever f is undefined there is none either). If f
+/// A piece in which the enclosure of f excludes 0 holds no surface (wherever f is undefined there is none either); where it does
+/// not, the plane of the affine form cuts off what lies before and behind all zeros, with the signs there. If f
 /// has one sign on all rays at a parameter inside the surface's region, and the other sign at a later one, still inside,
 /// and is continuous in between, then every ray meets the surface in between: what lies behind is of no interest.
 ///
@@ -120,7 +131,7 @@ pub fn narrow(
         if searches.len() == k {
             searches.push(Search::new(&job.fan));
         }
-        searches[k].begin(surfaces, job);
+        searches[k].begin(surfaces, job, work);
         active.push(k);
     }
     loop {
@@ -141,7 +152,7 @@ pub fn narrow(
                     && let Some(t) = searches[k].asked
                     && let Some(form) = answers.next()
                 {
-                    searches[k].looked(surfaces, &jobs[k], t, form.range(), work);
+                    searches[k].looked(surfaces, &jobs[k], t, form, work);
                 }
             }
         }
@@ -171,7 +182,7 @@ impl Search {
         }
     }
 
-    fn begin(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>) {
+    fn begin(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>, work: &mut Workspace) {
         self.known.open.clear();
         self.known.cover = job.parent.cover;
         self.known.front.clear();
@@ -179,7 +190,7 @@ impl Search {
         self.cost = Cost { beams: 1, evaluations: 0 };
         (self.shape, self.directions, self.next) = (Shape::of(&job.fan), job.fan.directions(), 0);
         self.stack.clear();
-        self.go_on(surfaces, job);
+        self.go_on(surfaces, job, work);
     }
 
     /// Turns to the next surface that has open pieces, if there is one.
@@ -192,16 +203,21 @@ impl Search {
         self.passage = surfaces[first.surface].passage(&job.fan.apex, &self.directions);
         (self.reach, self.first_open) = (Reach::of(&self.passage), self.known.open.len());
         self.stack.clear();
-        self.stack.extend(pieces[..count].iter().rev().map(|p| p.t));
+        self.stack.extend(pieces[..count].iter().rev().map(|p| Next::Look(p.t)));
         true
     }
 
     /// The next piece to look at, of this surface or of a later one.
-    fn go_on(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>) {
+    fn go_on(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>, work: &mut Workspace) {
         loop {
-            while let Some(t) = self.stack.pop() {
+            while let Some(next) = self.stack.pop() {
+                let (Next::Look(t) | Next::Free(t, _)) = next;
                 let t = t.intersection(self.passage.outer);
                 if t.is_empty() || t.lo() >= self.known.cover {
+                    continue;
+                }
+                if let Next::Free(_, sign) = next {
+                    self.free(surfaces, job, t, sign, work);
                     continue;
                 }
                 if t.hi() == f64::INFINITY {
@@ -211,7 +227,7 @@ impl Search {
                 }
                 if self.cost.evaluations > FRUSTUM_EVALUATIONS {
                     // The work of one frustum is spent: the rest stays open.
-                    join(&mut self.known.open, self.first_open, Piece { surface: self.surface, t });
+                    self.keep_open(t);
                     continue;
                 }
                 self.cost.evaluations += 1;
@@ -225,48 +241,70 @@ impl Search {
         }
     }
 
+    fn keep_open(&mut self, t: Interval) {
+        join(&mut self.known.open, self.first_open, Piece { surface: self.surface, t });
+    }
+
     fn looked(
         &mut self,
         surfaces: &[Surface<'_>],
         job: &Frustum<'_>,
         t: Interval,
-        mut range: Interval,
+        form: &Affine<3>,
         work: &mut Workspace,
     ) {
-        let (surface, function) = (self.surface, surfaces[self.surface].function);
+        let mut range = form.range();
         if range == Interval::ENTIRE {
             // Affine forms say nothing at the ends of domains; intervals do.
             self.cost.evaluations += 1;
-            range = function.range(&job.fan.box_at(t), work);
+            range = surfaces[self.surface].function.range(&job.fan.box_at(t), work);
         }
-        if range.possibly_zero() {
-            if self.shape.long(t, self.reach) {
-                let [near, far] = cut(t);
-                self.stack.push(far);
-                self.stack.push(near);
-            } else {
-                join(&mut self.known.open, self.first_open, Piece { surface, t });
+        if !range.possibly_zero() {
+            if let Some(sign) = Sign::of(range) {
+                self.free(surfaces, job, t, sign, work);
             }
-        } else if let Some(sign) = Sign::of(range) {
-            // Only parameters at which all rays are inside the region can prove a meeting.
-            let inside = t.intersection(self.passage.inner);
-            if inside.is_empty() {
-                return self.go_on(surfaces, job);
+        } else if let Some(found) = contract(t, form).filter(|c| smaller(c.open, t)) {
+            self.stack.extend(found.tail(t).map(|(t, sign)| Next::Free(t, sign)));
+            let again = curved(form) && self.shape.long(found.open, self.reach);
+            if again {
+                self.stack.push(Next::Look(found.open));
             }
-            if self.known.open.len() == self.first_open {
-                self.known.front[surface] = Some((sign, inside.hi()));
-            } else if let Some((front, at)) = self.known.front[surface]
-                && front != sign
-                && at <= inside.lo()
-            {
-                let between = || job.fan.box_at(Interval::new(at, inside.lo()));
-                if function.continuous_everywhere() || certainly_continuous(function, &between(), work) {
-                    self.known.cover = self.known.cover.min(inside.lo());
-                    // What lies behind is of no interest.
-                    self.stack.clear();
-                }
+            if let Some((t, sign)) = found.head(t) {
+                self.free(surfaces, job, t, sign, work);
+            }
+            if !again {
+                self.keep_open(found.open);
+            }
+        } else if curved(form) && self.shape.long(t, self.reach) {
+            let [near, far] = cut(t);
+            self.stack.push(Next::Look(far));
+            self.stack.push(Next::Look(near));
+        } else {
+            self.keep_open(t);
+        }
+        self.go_on(surfaces, job, work);
+    }
+
+    /// No ray meets the surface at a parameter in `t`: f has one sign there, where it is defined.
+    fn free(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>, t: Interval, sign: Sign, work: &mut Workspace) {
+        let (surface, function) = (self.surface, surfaces[self.surface].function);
+        // Only parameters at which all rays are inside the region can prove a meeting.
+        let inside = t.intersection(self.passage.inner);
+        if inside.is_empty() {
+            return;
+        }
+        if self.known.open.len() == self.first_open {
+            self.known.front[surface] = Some((sign, inside.hi()));
+        } else if let Some((front, at)) = self.known.front[surface]
+            && front != sign
+            && at <= inside.lo()
+        {
+            let between = || job.fan.box_at(Interval::new(at, inside.lo()));
+            if function.continuous_everywhere() || certainly_continuous(function, &between(), work) {
+                self.known.cover = self.known.cover.min(inside.lo());
+                // What lies behind is of no interest.
+                self.stack.clear();
             }
         }
-        self.go_on(surfaces, job);
     }
 }

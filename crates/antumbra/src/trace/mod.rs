@@ -6,6 +6,7 @@
 //! ray, proved by signs and enclosed by interval Newton ([`first_meeting`]).
 #![deny(clippy::float_arithmetic)]
 mod bisection;
+mod crossing;
 mod frustum;
 mod piece;
 mod policy;

@@ -46,6 +46,15 @@ pub enum Sign {
 }
 
 impl Sign {
+    /// The other sign.
+    #[must_use]
+    pub const fn opposite(self) -> Self {
+        match self {
+            Self::Negative => Self::Positive,
+            Self::Positive => Self::Negative,
+        }
+    }
+
     /// The sign of every number in the interval, if it is one and the same; none for the empty interval.
     #[must_use]
     #[inline]

@@ -3,9 +3,19 @@
 #![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
 use crate::geom::{Fan, Passage};
 use antumbra_interval::Interval;
+use antumbra_interval::affine::Affine;
 
 /// A piece longer than this many widths of the frustum is halved.
 const ASPECT: f64 = 2.0;
+
+/// A part of a piece smaller than this share of it is worth to be looked at alone.
+const SMALLER: f64 = 0.75;
+
+/// How far a function may be off its plane, in what it varies across a frustum, before shorter pieces are looked at.
+const CURVED: f64 = 0.25;
+
+/// Relative width of an enclosure of f' up to which a step of Newton's gains more for its cost than a new form.
+const STRAIGHT: f64 = 1e-3;
 
 /// Where to cut an interval in two. Not at the middle: roots like to sit at round numbers, and a root at a cut cannot
 /// be proved by signs.
@@ -50,6 +60,23 @@ impl Shape {
         let (length, at) = (t.hi() - t.lo(), t.hi().max(reach.0));
         length * self.speed > ASPECT * self.spread * t.hi() && length > 1e-9 * at
     }
+}
+
+/// Whether a contracted piece is enough smaller than before.
+pub(super) fn smaller(open: Interval, before: Interval) -> bool {
+    open.hi() - open.lo() < SMALLER * (before.hi() - before.lo())
+}
+
+/// Whether shorter pieces tell much more than the form does: what is left open along a plane is open because of what the
+/// function varies across.
+pub(super) fn curved(form: &Affine<3>) -> bool {
+    let [_, i, j] = form.coefficients();
+    form.error() > CURVED * (i.abs() + j.abs())
+}
+
+/// Whether a derivative varies little.
+pub(super) fn straight(derivative: Interval) -> bool {
+    derivative.hi() - derivative.lo() <= STRAIGHT * derivative.lo().abs().min(derivative.hi().abs())
 }
 
 /// The two parts of an interval.

@@ -1,6 +1,7 @@
 //! The first roots along rays, certified: many rays in lockstep, so that evaluations come in batches.
+use super::crossing::{Contracted, contract};
 use super::piece::certainly_continuous;
-use super::policy::{Effort, Reach, cut, thin, tiny};
+use super::policy::{Effort, Reach, cut, smaller, straight, thin, tiny};
 use super::{Cost, Piece, Sign, Surface};
 use crate::eval::{RayPiece, Workspace};
 use crate::geom::{Beam, Passage};
@@ -43,32 +44,42 @@ pub struct Scratch {
 
 const UNKNOWN: Dual<1> = Dual { value: Affine::UNKNOWN, derivative: Affine::UNKNOWN };
 
-/// Steps of interval Newton at most.
-const NEWTON_STEPS: u32 = 40;
+/// Steps towards one root at most.
+const STEPS: u32 = 40;
 
 /// What a search does next. Every step but the last asks for one or two evaluations.
 #[derive(Clone, Copy, Debug)]
 enum Step {
     /// Value and derivative on a piece.
     Look(Interval),
-    /// The signs at both ends of a piece on which f is monotone, with the enclosure of its derivative.
-    Ends(Interval, Interval),
-    /// The value in the middle of an interval that holds exactly one root: for interval Newton.
-    Middle(Newton),
-    /// A sharper derivative there.
-    Sharpen(Newton),
+    /// The signs at both ends of a piece on which f is monotone; and where in it the root is, if there is one, with the
+    /// derivative.
+    Ends(Interval, Interval, Interval),
+    /// Value and derivative on an interval that holds the first root.
+    Narrow(Root),
+    /// The value in its middle: for interval Newton, with the derivative there.
+    Middle(Root, Interval),
     /// Nothing more.
     Done,
 }
 
-/// Interval Newton on an interval that holds exactly one root.
+/// An interval that holds the first root: before it, f is not 0, and has one sign at its lower end; it has the other sign at the
+/// upper one, and is continuous in between.
 #[derive(Clone, Copy, Debug)]
-struct Newton {
+struct Root {
     t: Interval,
-    derivative: Interval,
     /// The sign of f before the root.
     before: Sign,
     steps: u32,
+}
+
+/// A part of a ray that comes next.
+#[derive(Clone, Copy, Debug)]
+enum Next {
+    /// To be looked at.
+    Look(Interval),
+    /// No root there: a sign of f.
+    Free(Sign),
 }
 
 /// The search along one ray.
@@ -85,7 +96,7 @@ struct Search {
     /// Evaluations before this surface.
     begin: u64,
     before: Option<Sign>,
-    stack: Vec<Interval>,
+    stack: Vec<Next>,
 }
 
 impl Default for Search {
@@ -109,9 +120,13 @@ impl Default for Search {
 /// The first meeting of each ray with a surface in one of its open pieces, and what it cost; in the order of the rays. `None`
 /// proves that there is none.
 ///
-/// Each piece is settled by the enclosure of f; or, where the derivative along the ray has a proved sign, by the signs of
-/// f at both ends: equal signs exclude a root (f is monotone), opposite ones prove exactly one if f is continuous on the
-/// piece, which interval Newton then encloses: `N = m - f(m) / f'(T)` contains every root in T (mean value theorem).
+/// The affine form of f along a piece tells where its roots may be, and which sign f has before and behind them: opposite ones
+/// prove a root if f is continuous on the piece. Where the roots may be at an end of the piece and the derivative has a proved
+/// sign, the signs of f at both ends decide: equal ones exclude a root (f is monotone), opposite ones prove one.
+///
+/// The first root is then enclosed by new forms on shorter and shorter pieces, each about as narrow as the square of the one
+/// before, and where the derivative is nearly constant by interval Newton, which takes half the time:
+/// `N = m - f(m) / f'(T)` contains every root in T (mean value theorem).
 ///
 /// The searches do not know of each other: the answer for a ray, and its cost, are the same in any company.
 pub fn first_meetings(
@@ -144,12 +159,12 @@ pub fn first_meetings(
                 let ray = rays[k].beam;
                 let mut at = |t: f64| points.push(RayPiece { ray, t: Interval::point(t) });
                 match searches[k].step {
-                    Step::Look(t) | Step::Sharpen(Newton { t, .. }) => pieces.push(RayPiece { ray, t }),
-                    Step::Ends(t, _) => {
+                    Step::Look(t) | Step::Narrow(Root { t, .. }) => pieces.push(RayPiece { ray, t }),
+                    Step::Ends(t, ..) => {
                         at(t.lo());
                         at(t.hi());
                     }
-                    Step::Middle(newton) => at(newton.t.mid()),
+                    Step::Middle(root, _) => at(root.t.mid()),
                     Step::Done => {}
                 }
             }
@@ -169,12 +184,12 @@ pub fn first_meetings(
                 let context = Context { surfaces, ray: &rays[k], effort };
                 match search.step {
                     Step::Look(t) => search.looked(&context, t, value(), work),
-                    Step::Sharpen(newton) => search.sharpened(&context, newton, value()),
-                    Step::Ends(t, derivative) => {
+                    Step::Narrow(root) => search.narrowed(&context, root, value(), work),
+                    Step::Ends(t, open, derivative) => {
                         let signs = [Sign::of(range()), Sign::of(range())];
-                        search.met(&context, t, derivative, signs, work);
+                        search.met(&context, t, open, derivative, signs, work);
                     }
-                    Step::Middle(newton) => search.stepped(&context, newton, range()),
+                    Step::Middle(root, derivative) => search.stepped(&context, root, derivative, range()),
                     Step::Done => {}
                 }
             }
@@ -240,7 +255,7 @@ impl Search {
         self.passage = c.surfaces[first.surface].passage(&c.ray.beam.origin.to_box(), &c.ray.beam.direction);
         (self.reach, self.begin, self.before) = (Reach::of(&self.passage), self.cost.evaluations, None);
         self.stack.clear();
-        self.stack.extend(pieces[..count].iter().rev().map(|p| p.t));
+        self.stack.extend(pieces[..count].iter().rev().map(|p| Next::Look(p.t)));
         true
     }
 
@@ -250,8 +265,14 @@ impl Search {
             // Up to the end of the enclosure of what was found: within it, the order of two surfaces is not known.
             let until = self.best.map_or(f64::INFINITY, |b| b.t.hi());
             let mut found = None;
-            while let Some(t) = self.stack.pop() {
-                let t = t.intersection(self.passage.outer);
+            while let Some(next) = self.stack.pop() {
+                let t = match next {
+                    Next::Look(t) => t.intersection(self.passage.outer),
+                    Next::Free(sign) => {
+                        self.before = Some(sign);
+                        continue;
+                    }
+                };
                 if t.is_empty() || t.lo() > until {
                     continue;
                 }
@@ -312,11 +333,26 @@ impl Search {
             return self.go_on(c);
         }
         let derivative = dual.derivative.range();
-        if !derivative.possibly_zero() && c.continuous(self.surface, t, work) {
-            self.ask(2, Step::Ends(t, derivative));
-        } else {
-            self.divide(c, t, work);
+        let found = contract(t, &dual.value);
+        let parts = found.map(|c| (c.head(t), c.tail(t)));
+        if let (Some(Contracted { open, before }), Some((Some(_), Some(_)))) = (found, parts)
+            && c.continuous(self.surface, t, work)
+        {
+            return self.enclose(c, Root { t: open, before, steps: 0 }, derivative, t);
         }
+        if !derivative.possibly_zero() && c.continuous(self.surface, t, work) {
+            let open = found.map_or(t, |c| c.open);
+            return self.ask(2, Step::Ends(t, open, derivative));
+        }
+        if let (Some(Contracted { open, .. }), Some((head, tail))) = (found, parts)
+            && smaller(open, t)
+        {
+            self.before = head.map_or(self.before, |(_, sign)| Some(sign));
+            self.stack.extend(tail.map(|(_, sign)| Next::Free(sign)));
+            self.stack.push(Next::Look(open));
+            return self.go_on(c);
+        }
+        self.divide(c, t, work);
     }
 
     fn divide(&mut self, c: &Context<'_>, t: Interval, work: &mut Workspace) {
@@ -325,8 +361,8 @@ impl Search {
             return self.conclude(c, Meeting { surface: self.surface, t, before: self.before, reason: Some(reason) });
         }
         let [near, far] = cut(t);
-        self.stack.push(far);
-        self.stack.push(near);
+        self.stack.push(Next::Look(far));
+        self.stack.push(Next::Look(near));
         self.go_on(c);
     }
 
@@ -334,6 +370,7 @@ impl Search {
         &mut self,
         c: &Context<'_>,
         t: Interval,
+        open: Interval,
         derivative: Interval,
         signs: [Option<Sign>; 2],
         work: &mut Workspace,
@@ -343,48 +380,44 @@ impl Search {
                 self.before = Some(b);
                 self.go_on(c);
             }
-            [Some(before), Some(_)] => {
-                let newton = Newton { t, derivative, before, steps: 0 };
-                if thin(t, t, c.effort) {
-                    self.proved(c, newton);
-                } else {
-                    self.ask(1, Step::Middle(newton));
-                }
-            }
+            [Some(before), Some(_)] => self.enclose(c, Root { t: open, before, steps: 0 }, derivative, t),
             _ => self.divide(c, t, work),
         }
     }
 
-    fn stepped(&mut self, c: &Context<'_>, newton: Newton, value: Interval) {
-        let step = value / newton.derivative;
-        let narrower = (Interval::point(newton.t.mid()) - step).intersection(newton.t);
+    /// Goes on with the root, if that pays: `derivative` encloses f' on all of its interval, which was `wider` before.
+    fn enclose(&mut self, c: &Context<'_>, root: Root, derivative: Interval, wider: Interval) {
+        if thin(root.t, wider, c.effort) || root.steps == STEPS {
+            self.proved(c, root);
+        } else if !derivative.possibly_zero() && (straight(derivative) || !smaller(root.t, wider)) {
+            self.ask(1, Step::Middle(root, derivative));
+        } else {
+            self.ask(1, Step::Narrow(root));
+        }
+    }
+
+    fn narrowed(&mut self, c: &Context<'_>, root: Root, dual: Dual<1>, work: &mut Workspace) {
+        let derivative = dual.derivative.range();
+        let open = contract(root.t, &dual.value).map_or(root.t, |c| c.open);
+        if derivative.possibly_zero() && !smaller(open, root.t) {
+            // There may be several roots: which one is the first?
+            self.before = Some(root.before);
+            return self.divide(c, root.t, work);
+        }
+        self.enclose(c, Root { t: open, steps: root.steps + 1, ..root }, derivative, root.t);
+    }
+
+    fn stepped(&mut self, c: &Context<'_>, root: Root, derivative: Interval, value: Interval) {
+        let narrower = (Interval::point(root.t.mid()) - value / derivative).intersection(root.t);
         if narrower.is_empty() {
             // Only possible if an enclosure failed; keep what is proved.
-            return self.proved(c, newton);
+            return self.proved(c, root);
         }
-        let next = Newton { t: narrower, ..newton };
-        if thin(narrower, newton.t, c.effort) {
-            self.proved(c, next);
-        } else {
-            self.ask(1, Step::Sharpen(next));
-        }
+        self.enclose(c, Root { t: narrower, steps: root.steps + 1, ..root }, derivative, root.t);
     }
 
-    fn sharpened(&mut self, c: &Context<'_>, mut newton: Newton, dual: Dual<1>) {
-        let sharper = dual.derivative.range();
-        if !sharper.possibly_zero() {
-            newton.derivative = sharper.intersection(newton.derivative);
-        }
-        newton.steps += 1;
-        if newton.steps == NEWTON_STEPS {
-            self.proved(c, newton);
-        } else {
-            self.ask(1, Step::Middle(newton));
-        }
-    }
-
-    /// The interval holds exactly one root. It must lie where the surface exists.
-    fn proved(&mut self, c: &Context<'_>, Newton { t, before, .. }: Newton) {
+    /// The interval holds the first root. It must lie where the surface exists.
+    fn proved(&mut self, c: &Context<'_>, Root { t, before, .. }: Root) {
         let inside = t.intersection(self.passage.inner) == t;
         let reason = (!inside).then_some(Reason::Resolution);
         self.conclude(c, Meeting { surface: self.surface, t, before: Some(before), reason });

@@ -1,0 +1,79 @@
+//! Where on a piece of a beam the surface may be, by one affine form: what lies before and behind is settled without a question.
+use super::Sign;
+use antumbra_interval::Interval;
+use antumbra_interval::affine::Affine;
+
+/// What a form over a piece says along it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Contracted {
+    /// The function is 0 on no ray at any parameter of the piece outside of these, nor at their ends within the piece.
+    pub(super) open: Interval,
+    /// Its sign before them, where it is defined; behind them it has the other one.
+    pub(super) before: Sign,
+}
+
+/// Contracts a piece along which symbol 0 of the form runs.
+///
+/// The form's symbol maps `[-1, 1]` linearly to `t` (in real numbers: [`Affine::spanning`] books its rounding as error), hence the
+/// parameter at `s` is `lo + (hi - lo)/2 (s + 1)`. Rounded outward, a parameter before `open` has an `s` before all zeros.
+pub(super) fn contract<const N: usize>(t: Interval, form: &Affine<N>) -> Option<Contracted> {
+    let crossing = form.crossing(0)?;
+    let (lo, hi) = (Interval::point(t.lo()), Interval::point(t.hi()));
+    let half = (hi - lo) * Interval::point(0.5);
+    let open = (lo + half * (crossing.zeros + Interval::ONE)).intersection(t);
+    let before = if crossing.rises { Sign::Negative } else { Sign::Positive };
+    (!open.is_empty()).then_some(Contracted { open, before })
+}
+
+impl Contracted {
+    /// The part of the piece before the open one, if there is one.
+    pub(super) fn head(&self, t: Interval) -> Option<(Interval, Sign)> {
+        (self.open.lo() > t.lo()).then(|| (Interval::new(t.lo(), self.open.lo()), self.before))
+    }
+
+    /// The part behind it.
+    pub(super) fn tail(&self, t: Interval) -> Option<(Interval, Sign)> {
+        (self.open.hi() < t.hi()).then(|| (Interval::new(self.open.hi(), t.hi()), self.before.opposite()))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// `f = t - 2 + 0.1 i +- 0.01` over `t` in `[1, 4]`.
+    fn form() -> Affine<2> {
+        Affine::spanning(0, Interval::new(1.0, 4.0)) + Affine::linear(-2.0, [0.0, 0.1], 0.01)
+    }
+
+    #[test]
+    fn what_is_cut_off_has_one_sign_and_no_more_is_left_than_need_be() {
+        let t = Interval::new(1.0, 4.0);
+        let found = contract(t, &form()).unwrap();
+        assert_eq!(found.before, Sign::Negative);
+        assert!(found.open.lo() < 1.89 && found.open.hi() > 2.11, "zeros at 2 +- 0.11: {:?}", found.open);
+        assert!(found.open.lo() > 1.89 - 1e-12 && found.open.hi() < 2.11 + 1e-12, "{:?}", found.open);
+        let (head, sign) = found.head(t).unwrap();
+        assert_eq!((head.lo(), head.hi(), sign), (1.0, found.open.lo(), Sign::Negative));
+        let (tail, sign) = found.tail(t).unwrap();
+        assert_eq!((tail.lo(), tail.hi(), sign), (found.open.hi(), 4.0, Sign::Positive));
+        assert_eq!(contract(t, &-form()).unwrap().before, Sign::Positive);
+    }
+
+    #[test]
+    fn nothing_is_cut_off_where_the_form_is_flat_unknown_or_far_too_wide() {
+        let t = Interval::new(1.0, 4.0);
+        assert_eq!(contract(t, &Affine::linear(0.0, [0.0, 1.0], 0.0)), None);
+        assert_eq!(contract(t, &Affine::<2>::UNKNOWN), None);
+        let wide = contract(t, &Affine::linear(0.0, [1.0, 2.0], 0.0)).unwrap();
+        assert_eq!((wide.open, wide.head(t), wide.tail(t)), (t, None, None));
+    }
+
+    #[test]
+    fn a_piece_of_one_point_and_one_at_the_ends_of_the_numbers_stay_within_themselves() {
+        for t in [Interval::point(3.0), Interval::new(0.0, f64::MAX), Interval::new(0.0, 5e-324)] {
+            let form = Affine::<1>::linear(0.0, [1.0], 0.0);
+            assert!(contract(t, &form).is_none_or(|found| found.open.is_subset_of(t)), "{t:?}");
+        }
+    }
+}
