@@ -31,6 +31,7 @@ pub(crate) fn certified(scene: &Arc<Scene>, size: usize, tolerance: f64) -> (Fra
     let spec = RenderSpec { width: size, height: size, tolerance, ..RenderSpec::default() };
     let all = ProcessTime::now();
     let mut renderer = Renderer::new(Arc::clone(scene), spec, RunSpec { threads: Some(1) }).expect("a valid spec");
+    renderer.color_late();
     let mut seconds = Seconds { surfaces: 0.0, light: 0.0, whole: 0.0 };
     loop {
         let activity = renderer.activity().0;

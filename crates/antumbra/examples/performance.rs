@@ -20,6 +20,7 @@ fn picture(name: &str, size: usize, threads: usize) -> (Times, Stats) {
     let spec = RenderSpec { width: size, height: size, ..RenderSpec::default() };
     let (clock, all) = (Instant::now(), ProcessTime::now());
     let mut renderer = Renderer::new(scene, spec, RunSpec { threads: Some(threads) }).expect("a valid spec");
+    renderer.color_late();
     let (mut surfaces, mut light) = (0.0, 0.0);
     // Alone, a thread stops after every tile, so that each is booked on its pass; several would wait for each other.
     let budget = if threads == 1 { Duration::ZERO } else { Duration::from_secs(1) };

@@ -85,6 +85,7 @@ fn draw(words: &[String]) -> Result<(), Failure> {
         side
     };
     let mut renderer = Renderer::in_bands(Arc::new(scene), spec, RunSpec { threads: Some(1) }, rows)?;
+    renderer.color_late();
     loop {
         while !renderer.refine(Duration::from_secs(60)) {}
         if !renderer.next_band() {

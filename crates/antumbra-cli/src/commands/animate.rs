@@ -104,6 +104,7 @@ fn frames(
         let mut sink = Sink::open(&path)?;
         let mut unfinished = Unfinished::of(&path, options.format, options.save_every);
         let mut renderer = unfinished.begin_frame(&scene, &options.spec, options.run, options.resume)?;
+        renderer.color_late();
         let asking = Asking::first(renderer.stop_flag());
         let mut between = |renderer: &Renderer| {
             let done = k as f64 + renderer.progress();

@@ -50,6 +50,7 @@ pub(super) fn run(options: &AuditOptions) -> Result<()> {
         Audited::Scene(scene, spec) => {
             let progress = Progress::new(options.quiet, "certified");
             let mut renderer = Renderer::new(Arc::clone(&scene.scene), spec.clone(), options.run)?;
+            renderer.color_late();
             complete(&mut renderer, options.budget, &progress)?;
             let RenderSpec { light_scale, floor, .. } = *spec;
             let (name, scene, frame) = (scene.name.clone(), Arc::clone(&scene.scene), renderer.frame().clone());

@@ -126,6 +126,7 @@ fn render(
     progress: &Progress,
 ) -> Result<(antumbra::render::Frame, Stats)> {
     let mut renderer = Renderer::new(Arc::clone(scene), spec, run)?;
+    renderer.color_late();
     complete(&mut renderer, budget, progress).context("not drawn")?;
     Ok((renderer.frame().clone(), renderer.stats()))
 }

@@ -56,6 +56,7 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     let rows = bands::rows(options)?;
     let mut unfinished = Unfinished::of(&options.picture, options.format, options.save_every);
     let mut renderer = unfinished.begin(&options.scene.scene, &options.spec, options.run, rows, options.resume)?;
+    renderer.color_late();
     // Where a render goes on, its state says whether it is one in bands.
     let mut bands = match renderer.rows_before() {
         0 if renderer.holds_all() => None,

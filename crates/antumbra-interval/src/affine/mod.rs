@@ -180,19 +180,21 @@ impl<const N: usize> Affine<N> {
     /// says nothing, or is 0 nowhere. Panics unless `i < N`.
     ///
     /// A zero has `|c + a_i s_i| <= r`, `r` the largest sum of what the other symbols and the error bring: `s_i` is in
-    /// `([-r, r] - c)/a_i`. One step outward makes the ends strict.
+    /// `(-c -+ r)/a_i`. Sum and quotient are off by at most `(2u + u^2) |p| + eta` together, and the step outward is larger: so
+    /// the ends are strict. (A quotient that overflows lies beyond -1 or 1.)
     #[must_use]
+    #[inline]
     pub fn crossing(&self, i: usize) -> Option<Crossing> {
         let slope = self.a[i];
         if !self.is_known() || slope == 0.0 {
             return None;
         }
-        let others = Self { a: std::array::from_fn(|k| if k == i { 0.0 } else { self.a[k] }), ..*self };
-        let r = others.radius();
-        let zeros = (Interval::new(-r, r) - Interval::point(self.c)) / Interval::point(slope);
-        let within = Interval::new(-1.0, 1.0);
-        let zeros = Interval::new(zeros.lo().next_down(), zeros.hi().next_up()).intersection(within);
-        (!zeros.is_empty()).then_some(Crossing { zeros, rises: slope > 0.0 })
+        let r = Self { a: std::array::from_fn(|k| if k == i { 0.0 } else { self.a[k] }), ..*self }.radius();
+        let rises = slope > 0.0;
+        let [first, last] = if rises { [-r, r] } else { [r, -r] }.map(|r| (r - self.c) / slope);
+        let step = |p: f64| p.abs() * (4.0 * U) + TINY;
+        let (lo, hi) = (greater(first - step(first), -1.0), lesser(last + step(last), 1.0));
+        Some(Crossing { zeros: Interval::try_new(lo, hi)?, rises })
     }
 }
 

@@ -48,8 +48,11 @@ pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> Gri
             (0..RAYS).map(move |k| task.film.sub_ray(column, row, k % EDGE_RAYS, k / EDGE_RAYS, EDGE_RAYS))
         })
         .collect();
-    let asked: Vec<Ray<'_>> =
-        beams.iter().enumerate().map(|(k, beam)| Ray { beam: *beam, open: &open[k / RAYS].open }).collect();
+    let ray = |(k, beam): (usize, &Beam)| {
+        let known: &Known = &open[k / RAYS];
+        Ray { beam: *beam, open: &known.open, inside: known.inside }
+    };
+    let asked: Vec<Ray<'_>> = beams.iter().enumerate().map(ray).collect();
     let mut met: Vec<(usize, Meeting)> = Vec::with_capacity(beams.len());
     first_meetings(&surfaces, &asked, task.glance, rays, work, |k, meeting, spent| {
         met.extend(meeting.map(|m| (k, m)));

@@ -6,6 +6,7 @@ mod bands;
 mod book;
 mod by_paper;
 mod by_proof;
+mod coloring;
 mod crease;
 mod crew;
 mod develop;

@@ -31,7 +31,7 @@ pub struct Renderer {
     pub(super) spec: RenderSpec,
     /// Whether hits are on parts of unions. Once they are, they are so for every method.
     divided: bool,
-    crew: Crew,
+    pub(super) crew: Crew,
     clock: Clock,
     grids: Vec<Grid>,
     pub(super) book: Book,
@@ -42,6 +42,8 @@ pub struct Renderer {
     pub(super) next_tile: usize,
     stop: Arc<AtomicBool>,
     spare: Spare,
+    /// Hits get their colours with their light only.
+    pub(super) late_colors: bool,
 }
 
 /// What a renderer is about to do.
@@ -116,6 +118,7 @@ impl Renderer {
             next_tile: 0,
             stop,
             spare,
+            late_colors: false,
         })
     }
 
@@ -162,6 +165,7 @@ impl Renderer {
             renderer.build_grids();
             renderer.book.stats.grid_seconds += renderer.since(begin).as_secs_f64();
         }
+        renderer.put_missing_colors();
         Ok(renderer)
     }
 
@@ -215,15 +219,6 @@ impl Renderer {
     #[must_use]
     pub fn scene(&self) -> &Scene {
         &self.task.scene
-    }
-
-    /// The frame of an unfinished render with the colours of its edges, as far as they are known: to be looked at. What
-    /// was not looked at is black, light that was not looked for is there.
-    #[must_use]
-    pub fn preview(mut self) -> Frame {
-        let rows = self.task.window.finished().start..self.task.window.held().end;
-        self.book.finish_colors(&self.task, self.task.indices(rows));
-        self.book.frame
     }
 
     /// Finds the shadows again with another method, for the hits that have been found. What the hits cost stays in the
@@ -395,7 +390,7 @@ impl Renderer {
                 self.book.put_pixel(&self.task, pixel);
             }
         }
-        self.put_colors(&pixels, false);
+        self.put_first_colors(pixels);
         done
     }
 
@@ -445,11 +440,6 @@ impl Renderer {
         let done = found.len();
         found.into_iter().for_each(|edges| self.book.put_creases(edges));
         done
-    }
-
-    fn put_colors(&mut self, pixels: &[usize], lit: bool) {
-        let Self { crew, book, task, .. } = self;
-        crew.install(|| book.put_colors(task, pixels, lit));
     }
 
     /// The work of the tiles of a batch, in their order, as far as it was done. Each thread takes the next tile when it has done one:

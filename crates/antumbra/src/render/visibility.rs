@@ -11,9 +11,7 @@ use super::task::{Asked, Task};
 use crate::eval::Occupancy;
 use crate::geom::{Beam, Fan};
 use crate::shadow::Receiver;
-use crate::trace::{
-    Cost, Effort, Frustum, Known as Open, Meeting, Piece, Ray, Surface, first_meeting, first_meetings, narrow,
-};
+use crate::trace::{Cost, Effort, Frustum, Known as Open, Meeting, Piece, Ray, Surface, first_meetings, narrow};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
 
@@ -159,7 +157,7 @@ impl Primary<'_> {
         let mut meeting = Meeting { surface, t, before: Some(before), reason: None };
         let wide = |light: &Vec<[f64; 2]>| light[index][1] - light[index][0] > self.task.tolerance.width;
         if given.lights.iter().any(wide) {
-            let found = self.meet_finely(&Ray { beam, open: &[Piece { surface, t }] }, &mut cost);
+            let found = self.meet_finely(&Ray { beam, open: &[Piece { surface, t }], inside: false }, &mut cost);
             // Of the roots in t the first: the very one that is given.
             meeting = found.filter(|m| m.reason.is_none() && m.before.is_some()).unwrap_or(meeting);
         }
@@ -224,7 +222,8 @@ impl Primary<'_> {
                 sights.push(Sight { column, row, open: &node.open, ray, pixel, thin, stage });
             }
         }
-        let rays: Vec<Ray<'_>> = sights.iter().map(|s| Ray { beam: s.ray, open: &s.open.open }).collect();
+        let rays: Vec<Ray<'_>> =
+            sights.iter().map(|s| Ray { beam: s.ray, open: &s.open.open, inside: s.open.inside }).collect();
         let found = self.meet(&rays, Effort::FINE);
         let met: Vec<Met> =
             sights.iter().zip(&found).enumerate().filter_map(|(k, (s, (m, _)))| Some((k, s.ray, (*m)?))).collect();
@@ -350,7 +349,8 @@ impl Primary<'_> {
 
     /// The ray through the middle of a part of a pixel.
     fn part<'n>(&self, sight: &Sight<'n>, i: usize, j: usize) -> Ray<'n> {
-        Ray { beam: self.task.film.sub_ray(sight.column, sight.row, i, j, EDGE_RAYS), open: &sight.open.open }
+        let beam = self.task.film.sub_ray(sight.column, sight.row, i, j, EDGE_RAYS);
+        Ray { beam, open: &sight.open.open, inside: sight.open.inside }
     }
 
     fn meet(&mut self, rays: &[Ray<'_>], effort: Effort) -> Vec<(Option<Meeting>, Cost)> {
@@ -364,7 +364,12 @@ impl Primary<'_> {
 
     fn meet_finely(&mut self, ray: &Ray<'_>, cost: &mut Cost) -> Option<Meeting> {
         let Scratch { rays: scratch, work, .. } = &mut *self.scratch;
-        first_meeting(&self.surfaces, &ray.beam, ray.open, Effort::FINE, scratch, work, cost)
+        let mut meeting = None;
+        first_meetings(&self.surfaces, &[*ray], Effort::FINE, scratch, work, |_, found, spent| {
+            meeting = found;
+            *cost += spent;
+        });
+        meeting
     }
 
     fn hit(&mut self, ray: &Beam, m: &Meeting) -> Hit {

@@ -76,7 +76,7 @@ pub(super) fn quarters(u: Interval, v: Interval) -> [[Interval; 2]; 4] {
     [[a, c], [b, c], [a, d], [b, d]]
 }
 
-/// Places of the hits of a tile, as symbols in `[-1, 1]`, and the normal equations of a linear fit.
+/// Places of the hits of a tile, and the normal equations of a linear fit.
 pub(super) struct Places {
     center: [f64; 2],
     half: [f64; 2],
@@ -92,12 +92,12 @@ impl Places {
                 (lo[k], hi[k]) = (lo[k].min(x), hi[k].max(x));
             }
         }
-        // Exact: sums of small integers, halved; a power of two or more as the half width keeps quotients tame.
+        // Exact: sums of small integers, halved.
         let center = [0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1])];
         let half = [(0.5 * (hi[0] - lo[0])).max(0.5), (0.5 * (hi[1] - lo[1])).max(0.5)];
         let mut places_of = Self { center, half, moments: [0.0; 5], count: 0.0 };
         for (i, j) in places {
-            let [x, y] = places_of.rounded(i, j);
+            let [x, y] = places_of.offset(i, j);
             for (m, v) in places_of.moments.iter_mut().zip([x, y, x * x, x * y, y * y]) {
                 *m += v;
             }
@@ -106,32 +106,32 @@ impl Places {
         places_of
     }
 
-    fn rounded(&self, i: u32, j: u32) -> [f64; 2] {
-        [(f64::from(i) - self.center[0]) / self.half[0], (f64::from(j) - self.center[1]) / self.half[1]]
+    /// How far a place is from the middle, in pixels: exact, a multiple of 1/2.
+    pub(super) fn offset(&self, i: u32, j: u32) -> [f64; 2] {
+        [f64::from(i) - self.center[0], f64::from(j) - self.center[1]]
     }
 
-    /// Enclosures of the symbols of a place, within `[-1, 1]`.
-    pub(super) fn symbols(&self, i: u32, j: u32) -> [Interval; 2] {
-        [(i, 0), (j, 1)].map(|(x, k)| {
-            (Interval::point(f64::from(x)) - Interval::point(self.center[k])) / Interval::point(self.half[k])
-        })
+    /// What slopes by pixels are by symbols that run over the places from -1 to 1. Exact: a slope has 24 bits, half a width fewer
+    /// than 28.
+    pub(super) fn by_symbols(&self, [a, b]: [f64; 2]) -> [f64; 2] {
+        [a * self.half[0], b * self.half[1]]
     }
 
-    /// Least-squares slopes of `z` by the two symbols.
+    /// Least-squares slopes of `z` by pixels, of 24 bits each.
     pub(super) fn slopes(&self, hits: impl Iterator<Item = (u32, u32, f64)> + Clone) -> [f64; 2] {
         let n = self.count;
         let [sx, sy, sxx, sxy, syy] = self.moments;
         let mean = hits.clone().map(|(_, _, z)| z).sum::<f64>() / n;
         let (mut zx, mut zy) = (0.0, 0.0);
         for (i, j, z) in hits {
-            let [x, y] = self.rounded(i, j);
+            let [x, y] = self.offset(i, j);
             zx += (z - mean) * x;
             zy += (z - mean) * y;
         }
         let (xx, xy, yy) = (sxx - sx * sx / n + 1e-9, sxy - sx * sy / n, syy - sy * sy / n + 1e-9);
         let det = xx * yy - xy * xy;
-        let slopes = [(yy * zx - xy * zy) / det, (xx * zy - xy * zx) / det];
-        if slopes.iter().all(|s| s.is_finite()) { slopes } else { [0.0; 2] }
+        let slopes = [(yy * zx - xy * zy) / det, (xx * zy - xy * zx) / det].map(|slope| slope as f32);
+        if slopes.iter().all(|s| s.is_finite()) { slopes.map(f64::from) } else { [0.0; 2] }
     }
 }
 

@@ -7,7 +7,7 @@ use crate::geom::{Box3, Fan, Passage, Rect};
 use crate::trace::{Cost, Piece, Sign, Surface};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Slope};
-use antumbra_interval::round::{add_up, sub_up};
+use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
 
 /// The hits of a tile as a linear function of their place in it.
 #[derive(Clone, Debug)]
@@ -38,7 +38,8 @@ impl Shaft {
     /// Fits a plane through hits `(i, j, receiver)`; `None` if they are on different surfaces or sides.
     ///
     /// The fit is a least-squares one, in plain arithmetic; the remainder is then enclosed: `e_k` bounds
-    /// `|P_k - c_k - a_k i - b_k j|` over all hits and all points of their enclosures, so any fit is sound.
+    /// `|P_k - c_k - a_k i - b_k j|` over all hits and all points of their enclosures, so any fit is sound. (`i` is the offset
+    /// `di` in pixels over half their extent, and `a_k` exactly that often the slope by pixels: `a_k i` is slope times `di`.)
     #[must_use]
     pub fn fit(hits: &[(u32, u32, &Receiver)]) -> Option<Self> {
         let (_, _, first) = hits.first()?;
@@ -50,12 +51,14 @@ impl Shaft {
             Self { apex: [Affine::ZERO; 3], surface: first.surface, side: first.side, extent: 0.0, roughness: 0.0 };
         for k in 0..3 {
             let [a, b] = place.slopes(hits.iter().map(|(i, j, r)| (*i, *j, r.point[k].mid())));
-            let (slope_i, slope_j) = (Interval::point(a), Interval::point(b));
             let mut rest = Interval::EMPTY;
             for (i, j, receiver) in hits {
-                let [x, y] = place.symbols(*i, *j);
-                rest = rest.hull(receiver.point[k] - (slope_i * x + slope_j * y));
+                let ([di, dj], point) = (place.offset(*i, *j), receiver.point[k]);
+                let below = sub_down(point.lo(), add_up(mul_up(a, di), mul_up(b, dj)));
+                let above = sub_up(point.hi(), add_down(mul_down(a, di), mul_down(b, dj)));
+                rest = rest.hull(Interval::try_new(below, above)?);
             }
+            let [a, b] = place.by_symbols([a, b]);
             let center = rest.mid();
             let error = rest.radius();
             shaft.apex[k] = Affine::linear(center, [0.0, 0.0, 0.0, a, b], error);

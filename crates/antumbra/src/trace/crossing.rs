@@ -2,6 +2,7 @@
 use super::Sign;
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
+use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
 
 /// What a form over a piece says along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -15,12 +16,14 @@ pub(super) struct Contracted {
 /// Contracts a piece along which symbol 0 of the form runs.
 ///
 /// The form's symbol maps `[-1, 1]` linearly to `t` (in real numbers: [`Affine::spanning`] books its rounding as error), hence the
-/// parameter at `s` is `lo + (hi - lo)/2 (s + 1)`. Rounded outward, a parameter before `open` has an `s` before all zeros.
+/// parameter at `s` is `lo + (hi - lo)/2 (s + 1)`, a sum and a product of numbers that are not negative. Rounded outward, a
+/// parameter before `open` has an `s` before all zeros.
 pub(super) fn contract<const N: usize>(t: Interval, form: &Affine<N>) -> Option<Contracted> {
     let crossing = form.crossing(0)?;
-    let (lo, hi) = (Interval::point(t.lo()), Interval::point(t.hi()));
-    let half = (hi - lo) * Interval::point(0.5);
-    let open = (lo + half * (crossing.zeros + Interval::ONE)).intersection(t);
+    let (lo, hi, zeros) = (t.lo(), t.hi(), crossing.zeros);
+    let first = add_down(lo, mul_down(mul_down(0.5, sub_down(hi, lo)), add_down(zeros.lo(), 1.0)));
+    let last = add_up(lo, mul_up(mul_up(0.5, sub_up(hi, lo)), add_up(zeros.hi(), 1.0)));
+    let open = Interval::try_new(first, last)?.intersection(t);
     let before = if crossing.rises { Sign::Negative } else { Sign::Positive };
     (!open.is_empty()).then_some(Contracted { open, before })
 }

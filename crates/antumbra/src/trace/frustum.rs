@@ -20,13 +20,15 @@ pub struct Known {
     /// Per surface: a sign of f, and a parameter before its first open piece at which f has it on all rays, all of them
     /// inside the surface's region; where proved.
     front: SmallVec<[Option<(Sign, f64)>; 2]>,
+    /// In their open pieces all rays are inside the surfaces' regions: proved.
+    pub inside: bool,
 }
 
 /// Says nothing: neither empty nor covered. A place to write to.
 impl Default for Known {
     fn default() -> Self {
         let anywhere = Piece { surface: 0, t: Interval::ENTIRE };
-        Self { open: smallvec![anywhere], cover: f64::INFINITY, front: SmallVec::new() }
+        Self { open: smallvec![anywhere], cover: f64::INFINITY, front: SmallVec::new(), inside: false }
     }
 }
 
@@ -39,7 +41,8 @@ impl Known {
             let t = s.passage(&fan.apex, &directions).outer;
             (!t.is_empty()).then_some(Piece { surface, t })
         });
-        Self { open: open.collect(), cover: f64::INFINITY, front: smallvec![None; surfaces.len()] }
+        let front = smallvec![None; surfaces.len()];
+        Self { open: open.collect(), cover: f64::INFINITY, front, inside: false }
     }
 
     /// No ray meets anything: proved.
@@ -185,10 +188,14 @@ impl Search {
     fn begin(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>, work: &mut Workspace) {
         self.known.open.clear();
         self.known.cover = job.parent.cover;
+        self.known.inside = true;
         self.known.front.clear();
         self.known.front.extend_from_slice(&job.parent.front);
         self.cost = Cost { beams: 1, evaluations: 0 };
-        (self.shape, self.directions, self.next) = (Shape::of(&job.fan), job.fan.directions(), 0);
+        (self.shape, self.next) = (Shape::of(&job.fan), 0);
+        if !job.parent.inside {
+            self.directions = job.fan.directions();
+        }
         self.stack.clear();
         self.go_on(surfaces, job, work);
     }
@@ -200,7 +207,11 @@ impl Search {
         let count = pieces.iter().take_while(|p| p.surface == first.surface).count();
         self.next += count;
         self.surface = first.surface;
-        self.passage = surfaces[first.surface].passage(&job.fan.apex, &self.directions);
+        self.passage = if job.parent.inside {
+            Passage::inside(&pieces[..count])
+        } else {
+            surfaces[first.surface].passage(&job.fan.apex, &self.directions)
+        };
         (self.reach, self.first_open) = (Reach::of(&self.passage), self.known.open.len());
         self.stack.clear();
         self.stack.extend(pieces[..count].iter().rev().map(|p| Next::Look(p.t)));
@@ -223,6 +234,7 @@ impl Search {
                 if t.hi() == f64::INFINITY {
                     // An unbounded region: nothing can be evaluated, nothing is claimed.
                     self.known.open.push(Piece { surface: self.surface, t });
+                    self.known.inside = false;
                     continue;
                 }
                 if self.cost.evaluations > FRUSTUM_EVALUATIONS {
@@ -242,6 +254,7 @@ impl Search {
     }
 
     fn keep_open(&mut self, t: Interval) {
+        self.known.inside &= t.is_subset_of(self.passage.inner);
         join(&mut self.known.open, self.first_open, Piece { surface: self.surface, t });
     }
 

@@ -36,6 +36,14 @@ pub struct Piece {
     pub t: Interval,
 }
 
+impl Passage {
+    /// Of rays that are inside a convex region in all of the given pieces: and so they are in between.
+    pub(super) fn inside(pieces: &[Piece]) -> Self {
+        let all = pieces.iter().fold(Interval::EMPTY, |all, piece| all.hull(piece.t));
+        Self { outer: all, inner: all }
+    }
+}
+
 /// A proved sign.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Sign {

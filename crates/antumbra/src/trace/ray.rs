@@ -29,6 +29,8 @@ pub struct Ray<'a> {
     pub beam: Beam,
     /// Open pieces, ascending per surface.
     pub open: &'a [Piece],
+    /// In all of them the ray is inside the region of their surface: proved.
+    pub inside: bool,
 }
 
 /// Scratch memory of ray searches: keep it, it only grows.
@@ -211,7 +213,7 @@ pub fn first_meeting(
     cost: &mut Cost,
 ) -> Option<Meeting> {
     let mut meeting = None;
-    first_meetings(surfaces, &[Ray { beam: *beam, open }], effort, scratch, work, |_, found, spent| {
+    first_meetings(surfaces, &[Ray { beam: *beam, open, inside: false }], effort, scratch, work, |_, found, spent| {
         meeting = found;
         *cost += spent;
     });
@@ -252,7 +254,11 @@ impl Search {
         let count = pieces.iter().take_while(|p| p.surface == first.surface).count();
         self.next += count;
         self.surface = first.surface;
-        self.passage = c.surfaces[first.surface].passage(&c.ray.beam.origin.to_box(), &c.ray.beam.direction);
+        self.passage = if c.ray.inside {
+            Passage::inside(&pieces[..count])
+        } else {
+            c.surfaces[first.surface].passage(&c.ray.beam.origin.to_box(), &c.ray.beam.direction)
+        };
         (self.reach, self.begin, self.before) = (Reach::of(&self.passage), self.cost.evaluations, None);
         self.stack.clear();
         self.stack.extend(pieces[..count].iter().rev().map(|p| Next::Look(p.t)));
