@@ -4,7 +4,7 @@
 //! ([`run`](super::run)), on every machine: so whether, and with which neighbours, a question is asked in a batch changes no answer.
 use super::{Gradient, Number};
 use crate::expr::{Binary, Unary};
-use crate::geom::{Beam, Box3, Fan};
+use crate::geom::{Beam, Box3, Fan, axes};
 use crate::tape::{Op, Tape};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Dual};
@@ -33,7 +33,7 @@ impl RayPiece {
     #[inline]
     pub fn point(&self) -> [Dual<1>; 3] {
         let s = Affine::<1>::spanning(0, self.t);
-        std::array::from_fn(|k| {
+        axes(|k| {
             let direction = Affine::constant(self.ray.direction[k]);
             Dual { value: (s * direction).add_f64(self.ray.origin[k]), derivative: direction }
         })

@@ -1,5 +1,5 @@
 //! Beams of interval arithmetic (paper, section 2).
-use super::{Box3, Vec3};
+use super::{Box3, Vec3, vector::axes};
 use antumbra_interval::Interval;
 
 /// The paper's beam `X = c + T (Xs - c)`: all rays from the exact point `origin` whose direction lies in the box
@@ -16,14 +16,14 @@ impl Beam {
     /// The beam from `origin` towards every point of `target`, which it reaches at `t = 1`.
     #[must_use]
     pub fn towards(origin: Vec3, target: Box3) -> Self {
-        Self { origin, direction: Box3(std::array::from_fn(|i| target[i] - Interval::point(origin[i]))) }
+        Self { origin, direction: Box3(axes(|i| target[i] - Interval::point(origin[i]))) }
     }
 
     /// Enclosure of every point that a ray of the beam reaches at a parameter in `t`. Three products and sums.
     #[must_use]
     #[inline]
     pub fn at(&self, t: Interval) -> Box3 {
-        Box3(std::array::from_fn(|i| Interval::point(self.origin[i]) + t * self.direction[i]))
+        Box3(axes(|i| Interval::point(self.origin[i]) + t * self.direction[i]))
     }
 
     /// Enclosure of the parameters `t >= 0` at which a ray of the beam may have its coordinate `axis` in `range`

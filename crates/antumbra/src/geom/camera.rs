@@ -1,5 +1,5 @@
 //! The camera and its film.
-use super::{Beam, Box3, Vec3};
+use super::{Beam, Box3, Vec3, vector::axes};
 use antumbra_interval::Interval;
 
 /// A perspective camera. The exact numbers stored here *are* the camera of which a picture speaks: the ray through the
@@ -77,9 +77,7 @@ impl Film {
     /// Enclosure of the directions of all rays with film coordinates in `x` and `y`.
     fn directions(&self, x: Interval, y: Interval) -> Box3 {
         let c = &self.camera;
-        Box3(std::array::from_fn(|i| {
-            Interval::point(c.forward[i]) + (x * Interval::point(c.right[i]) + y * Interval::point(c.up[i]))
-        }))
+        Box3(axes(|i| Interval::point(c.forward[i]) + (x.mul_f64(c.right[i]) + y.mul_f64(c.up[i]))))
     }
 
     /// Film coordinates of the pixels `columns x rows` (half-open ranges), y upwards.

@@ -1,5 +1,5 @@
 //! Where a surface exists: everywhere, in a box, or in a ball.
-use super::{Box3, Vec3};
+use super::{Box3, Vec3, vector::axes};
 use antumbra_interval::Interval;
 use antumbra_interval::round::{div_down, div_up, sub_down};
 
@@ -92,7 +92,7 @@ fn ball_passage(center: Vec3, radius: f64, apex: &Box3, direction: &Box3) -> Pas
     let (mut a, mut b, mut moment) = (Interval::ZERO, Interval::ZERO, Interval::ZERO);
     let square = Interval::point(radius).sqr();
     let mut c = -square;
-    let q: [Interval; 3] = std::array::from_fn(|k| apex[k] - Interval::point(center[k]));
+    let q: [Interval; 3] = axes(|k| apex[k] - Interval::point(center[k]));
     for k in 0..3 {
         let (i, j) = ((k + 1) % 3, (k + 2) % 3);
         a = a + direction[k].sqr();

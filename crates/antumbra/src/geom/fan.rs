@@ -1,5 +1,5 @@
 //! Fans of rays in affine form: camera frusta and shadow beams.
-use super::{Box3, Rect, Vec3, camera::Film};
+use super::{Box3, Rect, Vec3, camera::Film, vector::axes};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Slope};
 use std::ops::Range;
@@ -22,7 +22,7 @@ impl Fan {
     #[inline]
     pub fn towards(apex: Box3, light: &Rect, u: Interval, v: Interval) -> Self {
         let (u, v) = (Affine::spanning(1, u), Affine::spanning(2, v));
-        let direction = std::array::from_fn(|k| {
+        let direction = axes(|k| {
             let span = u.mul_f64(light.edge_u[k]) + v.mul_f64(light.edge_v[k]);
             span.add_f64(light.center[k]).add_interval(-apex[k])
         });
@@ -40,7 +40,7 @@ impl Fan {
     #[inline]
     pub fn at(&self, t: Interval) -> [Affine<3>; 3] {
         let t = Affine::spanning(0, t);
-        std::array::from_fn(|k| (t * self.direction[k]).add_interval(self.apex[k]))
+        axes(|k| (t * self.direction[k]).add_interval(self.apex[k]))
     }
 
     /// The same points, with the apex split off.
@@ -48,7 +48,7 @@ impl Fan {
     #[inline]
     pub fn slopes_at(&self, t: Interval) -> [Slope<Interval, 3>; 3] {
         let t = Affine::spanning(0, t);
-        std::array::from_fn(|k| Slope::coordinate(self.apex[k], t, self.direction[k]))
+        axes(|k| Slope::coordinate(self.apex[k], t, self.direction[k]))
     }
 
     /// Box of the points at parameters in `t`.
@@ -71,9 +71,7 @@ impl Film {
     pub fn fan_of(&self, x: Interval, y: Interval) -> Fan {
         let (x, y) = (Affine::spanning(1, x), Affine::spanning(2, y));
         let Vec3(forward) = self.camera.forward;
-        let direction = std::array::from_fn(|k| {
-            (x.mul_f64(self.camera.right[k]) + y.mul_f64(self.camera.up[k])).add_f64(forward[k])
-        });
+        let direction = axes(|k| (x.mul_f64(self.camera.right[k]) + y.mul_f64(self.camera.up[k])).add_f64(forward[k]));
         Fan { apex: self.camera.eye.to_box(), direction }
     }
 }

@@ -19,4 +19,5 @@ pub use leaving::Leaving;
 pub use polar::Polar;
 pub use rect::Rect;
 pub use sheet::Sheet;
+pub(crate) use vector::axes;
 pub use vector::{Box3, Vec3};

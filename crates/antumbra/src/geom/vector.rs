@@ -60,7 +60,7 @@ impl Add for Vec3 {
     type Output = Self;
 
     fn add(self, o: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] + o.0[i]))
+        Self(axes(|i| self.0[i] + o.0[i]))
     }
 }
 
@@ -68,7 +68,7 @@ impl Sub for Vec3 {
     type Output = Self;
 
     fn sub(self, o: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i] - o.0[i]))
+        Self(axes(|i| self.0[i] - o.0[i]))
     }
 }
 
@@ -92,6 +92,12 @@ impl Neg for Vec3 {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Box3(pub [Interval; 3]);
 
+/// One value for each axis. (`std::array::from_fn` leaves calls in the hot loops.)
+#[inline(always)]
+pub(crate) fn axes<T>(of: impl Fn(usize) -> T) -> [T; 3] {
+    [of(0), of(1), of(2)]
+}
+
 impl Box3 {
     /// The cube `[-half, half]^3`.
     #[must_use]
@@ -102,13 +108,13 @@ impl Box3 {
     /// Smallest box that contains both.
     #[must_use]
     pub fn hull(self, o: Self) -> Self {
-        Self(std::array::from_fn(|i| self.0[i].hull(o.0[i])))
+        Self(axes(|i| self.0[i].hull(o.0[i])))
     }
 
     /// Common part, `None` if there is none.
     #[must_use]
     pub fn intersection(self, o: Self) -> Option<Self> {
-        let common = Self(std::array::from_fn(|i| self.0[i].intersection(o.0[i])));
+        let common = Self(axes(|i| self.0[i].intersection(o.0[i])));
         (!common.0.iter().any(|i| i.is_empty())).then_some(common)
     }
 

@@ -17,11 +17,14 @@ pub(super) struct Irradiance {
 /// from the point) gives `1/(2 pi) |sum angle(v_i, v_i+1) (v_i x v_i+1)/|v_i x v_i+1| . n|`.
 pub(super) fn irradiance(point: Vec3, normal: Vec3, rect: &Rect) -> Irradiance {
     let corners = [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(u, v)| rect.point(u, v) - point);
+    let heights = corners.map(|corner| corner.dot(normal));
+    if heights.iter().all(|height| *height > 0.0) {
+        return Irradiance { form: form(&corners, normal), above: 1.0 };
+    }
     // A quadrangle cut by a plane.
     let mut polygon = SmallVec::<[Vec3; 5]>::new();
     for k in 0..4 {
-        let (a, b) = (corners[k], corners[(k + 1) % 4]);
-        let (x, y) = (a.dot(normal), b.dot(normal));
+        let (a, b, x, y) = (corners[k], corners[(k + 1) % 4], heights[k], heights[(k + 1) % 4]);
         if x > 0.0 {
             polygon.push(a);
         }
@@ -32,19 +35,25 @@ pub(super) fn irradiance(point: Vec3, normal: Vec3, rect: &Rect) -> Irradiance {
     if polygon.len() < 3 {
         return Irradiance { form: 0.0, above: 0.0 };
     }
-    let pairs = || polygon.iter().zip(polygon.iter().cycle().skip(1));
+    let first = polygon[0];
+    let doubled = polygon.windows(2).map(|w| (w[0] - first).cross(w[1] - first)).fold(Vec3::default(), |s, x| s + x);
+    let whole = 8.0 * rect.edge_u.cross(rect.edge_v).length();
+    Irradiance { form: form(&polygon, normal), above: (doubled.length() / whole).min(1.0) }
+}
+
+/// Lambert's formula for a polygon above the horizon.
+fn form(polygon: &[Vec3], normal: Vec3) -> f64 {
     let mut sum = 0.0;
-    for (a, b) in pairs() {
-        let cross = a.cross(*b);
+    let mut a = polygon[polygon.len() - 1];
+    for &b in polygon {
+        let cross = a.cross(b);
         let sine = cross.length();
         if sine > 0.0 {
-            sum += core_math::atan2(sine, a.dot(*b)) * cross.dot(normal) / sine;
+            sum += core_math::atan2(sine, a.dot(b)) * cross.dot(normal) / sine;
         }
+        a = b;
     }
-    let first = polygon[0];
-    let doubled = pairs().map(|(a, b)| (*a - first).cross(*b - first)).fold(Vec3::default(), |s, x| s + x);
-    let whole = 8.0 * rect.edge_u.cross(rect.edge_v).length();
-    Irradiance { form: sum.abs() / std::f64::consts::TAU, above: (doubled.length() / whole).min(1.0) }
+    sum.abs() / std::f64::consts::TAU
 }
 
 #[cfg(test)]

@@ -101,16 +101,15 @@ fn is_given(given: Option<&Given>, index: usize) -> bool {
 }
 
 /// All pixels, a block's quarter after the other. What a frustum costs is booked on the first pixel below it.
-fn in_order(task: &Task, nodes: &[Node], sights: Vec<Sight<'_>>) -> Vec<Pixel> {
-    let mut found: Vec<Option<Pixel>> = Vec::new();
+fn in_order(task: &Task, nodes: &[Node], mut sights: Vec<Sight<'_>>) -> Vec<Pixel> {
+    const NONE: usize = usize::MAX;
+    let mut found = vec![NONE; BLOCK * BLOCK];
     let slot = |index: usize| {
         let (column, row) = task.place(index);
         row % BLOCK * BLOCK + column % BLOCK
     };
-    found.resize_with(BLOCK * BLOCK, || None);
-    for sight in sights {
-        let slot = slot(sight.pixel.index);
-        found[slot] = Some(sight.pixel);
+    for (k, sight) in sights.iter().enumerate() {
+        found[slot(sight.pixel.index)] = k;
     }
     let (mut out, mut owed, mut stack) = (Vec::with_capacity(BLOCK * BLOCK), Cost::default(), vec![0]);
     while let Some(k) = stack.pop() {
@@ -121,7 +120,10 @@ fn in_order(task: &Task, nodes: &[Node], sights: Vec<Sight<'_>>) -> Vec<Pixel> {
             for index in indices(task, node.block) {
                 // A pixel that nobody looked at is empty only if its frustum is.
                 let none = || node.open.certainly_empty().then(|| empty(index));
-                let Some(mut pixel) = found[slot(index)].take().or_else(none) else { continue };
+                let seen = sights
+                    .get_mut(found[slot(index)])
+                    .map(|sight| Pixel { edge: sight.pixel.edge.take(), ..sight.pixel });
+                let Some(mut pixel) = seen.or_else(none) else { continue };
                 pixel.cost += std::mem::take(&mut owed);
                 out.push(pixel);
             }
