@@ -345,6 +345,52 @@ fn ranges_and_planes_bound_the_form() {
 }
 
 #[test]
+fn outside_of_its_crossing_a_form_has_the_sign_that_is_said() {
+    let mut r = Random(33);
+    let (mut outside, mut cut) = (0, 0);
+    for _ in 0..20000 {
+        let x = r.nasty_form::<3>();
+        let Some(found) = x.crossing(1) else {
+            assert!(x.coefficients()[1] == 0.0 || !x.range().possibly_zero() || !x.is_known(), "{x:?}");
+            continue;
+        };
+        let zeros = found.zeros;
+        cut += u32::from(zeros.lo() > -1.0 || zeros.hi() < 1.0);
+        let inner_end = |end: f64| (-1.0 < end && end < 1.0).then_some(end);
+        // Their ends within (-1, 1) too.
+        let ends = [inner_end(zeros.lo()), inner_end(zeros.hi())].into_iter().flatten();
+        let symbols: Vec<f64> = ends.chain([-1.0, 1.0, r.signed(), r.signed()]).collect();
+        for symbol in symbols {
+            let before = symbol <= zeros.lo() && zeros.lo() > -1.0;
+            if !before && (symbol < zeros.hi() || zeros.hi() >= 1.0) {
+                continue;
+            }
+            let mut s = r.symbols::<3>();
+            s[1] = symbol;
+            for error in [-1.0, r.symbol(), 1.0] {
+                let value = member(&x, &s, error);
+                let positive = value > exact(0.0);
+                assert!(!value.is_zero() && positive == (before != found.rises), "{x:?} at {s:?}: {found:?}");
+                outside += 1;
+            }
+        }
+    }
+    assert!(outside > 10000 && cut > 2000, "{outside} values, {cut} forms");
+}
+
+#[test]
+fn a_crossing_is_no_wider_than_the_plane_is_thick() {
+    // s_0/2 + 0.1 s_1 - 0.2 +- 0.05: zeros at 0.4 +- 0.3.
+    let found = Affine::<2>::linear(-0.2, [0.5, 0.1], 0.05).crossing(0).unwrap();
+    let close = |a: f64, b: f64| (a - b).abs() < 1e-14;
+    assert!(found.rises && close(found.zeros.lo(), 0.1) && close(found.zeros.hi(), 0.7), "{found:?}");
+    assert_eq!(Affine::<2>::linear(3.0, [0.5, 0.1], 0.05).crossing(0), None, "nowhere 0");
+    assert_eq!(Affine::<2>::UNKNOWN.crossing(0), None);
+    let falls = Affine::<1>::linear(0.0, [-1e-300], 0.0).crossing(0).unwrap();
+    assert!(!falls.rises && falls.zeros.contains(0.0));
+}
+
+#[test]
 fn spanning_and_constant_contain_their_interval() {
     let mut r = Random(32);
     for _ in 0..3000 {

@@ -116,6 +116,35 @@ fn a_preview_shows_what_is_done() {
 }
 
 #[test]
+fn late_colors_are_those_of_a_picture_that_was_looked_at() {
+    for method in ["certified", "paper"] {
+        let drawn = |late: bool, steps: usize| {
+            let mut renderer = Renderer::new(scene("links"), spec(method), ONE).unwrap();
+            if late {
+                renderer.color_late();
+            }
+            for _ in 0..steps {
+                if renderer.refine(Duration::ZERO) {
+                    break;
+                }
+            }
+            renderer
+        };
+        assert!(result(&drawn(true, usize::MAX)) == result(&drawn(false, usize::MAX)), "{method}");
+        // In the middle of the surfaces, and of the light.
+        let mut black = 0;
+        for steps in [6, 18, 22] {
+            let (late, early) = (drawn(true, steps), drawn(false, steps));
+            black += late.frame().rgb.iter().zip(&early.frame().rgb).filter(|(l, e)| l != e).count();
+            let resumed = resumed("links", &spec(method), ONE, &saved(&late)).unwrap();
+            assert!(resumed.frame().rgb == early.frame().rgb, "{method}, a state after {steps} steps");
+            assert!(late.preview().rgb == early.preview().rgb, "{method}, a preview after {steps} steps");
+        }
+        assert!(black > 100, "{method}: colours were late for {black} pixels");
+    }
+}
+
+#[test]
 fn a_state_of_something_else_is_refused() {
     let spec = spec("certified");
     let mut renderer = Renderer::new(scene("links"), spec.clone(), ONE).unwrap();

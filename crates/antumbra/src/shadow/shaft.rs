@@ -203,7 +203,8 @@ mod tests {
             let place = super::super::policy::Places::of(hits.iter().map(|(i, j, _)| (*i, *j)));
             let mut used = 0.0_f64;
             for (i, j, receiver) in &hits {
-                let [x, y] = place.symbols(*i, *j);
+                let ([di, dj], [half_i, half_j]) = (place.offset(*i, *j), place.by_symbols([1.0; 2]));
+                let [x, y] = [(di, half_i), (dj, half_j)].map(|(d, half)| Interval::point(d) / Interval::point(half));
                 for k in 0..3 {
                     let [_, _, _, a, b] = *shaft.apex[k].coefficients();
                     let form =
