@@ -20,6 +20,7 @@ mod jet;
 mod machine;
 mod point;
 mod regions;
+mod sieve;
 pub mod wgsl;
 
 pub use batch::{FanPiece, Occupancy, RayPiece};
@@ -29,3 +30,4 @@ pub use jet::PointJet;
 pub use machine::{Number, run};
 pub use point::value_at;
 pub use regions::{RegionCount, Regions};
+pub use sieve::Sieve;

@@ -1,6 +1,6 @@
 //! Where is the surface, and from where does one look at it?
 use super::{Light, Object, Scene, View};
-use crate::eval::{Inclusion, Workspace, centred_range};
+use crate::eval::{Inclusion, Sieve, Workspace, centred_range};
 use crate::geom::{Box3, Clip, Rect, Vec3};
 use antumbra_interval::Interval;
 
@@ -136,18 +136,13 @@ fn for_cells_with_zeros(
         lo + (hi - lo) * (Interval::point(k as f64) / Interval::point(CELLS as f64))
     };
     let slab = |axis: usize, k: usize| edge(axis, k).hull(edge(axis, k + 1));
-    for k in 0..CELLS {
-        for j in 0..CELLS {
-            for i in 0..CELLS {
-                let cell = Box3([slab(0, i), slab(1, j), slab(2, k)]);
-                if wanted(&cell)
-                    && f.range(&cell, work).possibly_zero()
-                    && centred_range(f, &cell, work).possibly_zero()
-                {
-                    found(cell);
-                }
-            }
-        }
+    let slabs: [[Interval; CELLS]; 3] = std::array::from_fn(|axis| std::array::from_fn(|k| slab(axis, k)));
+    let (mut cells, mut sieve) = (Vec::with_capacity(CELLS * CELLS), Sieve::default());
+    for z in slabs[2] {
+        cells.clear();
+        cells.extend(slabs[1].iter().flat_map(|y| slabs[0].map(|x| Box3([x, *y, z]))).filter(&wanted));
+        sieve.retain(f, &mut cells, work);
+        cells.iter().copied().for_each(&mut found);
     }
 }
 
