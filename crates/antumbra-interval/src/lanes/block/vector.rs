@@ -27,6 +27,14 @@ pub trait Vector: Copy {
     fn sub(self, o: Self) -> Self;
     /// `self * o`.
     fn mul(self, o: Self) -> Self;
+    /// `self / o`.
+    fn div(self, o: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// The float above, of finite numbers: of both zeros the smallest one.
+    fn above(self) -> Self;
+    /// The float below, of finite numbers.
+    fn below(self) -> Self;
     /// Sign bit cleared.
     fn abs(self) -> Self;
     /// Sign bit flipped.
@@ -41,6 +49,8 @@ pub trait Vector: Copy {
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// One or the other.
     fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// The opposite.
+    fn not(mask: Self::Mask) -> Self::Mask;
     /// Eight times yes.
     fn always() -> Self::Mask;
     /// Bit `i` is answer `i`.
@@ -99,6 +109,22 @@ impl Vector for Plain {
         Self(each!(i => self.0[i] * o.0[i]))
     }
     #[inline(always)]
+    fn div(self, o: Self) -> Self {
+        Self(each!(i => self.0[i] / o.0[i]))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(each!(i => self.0[i].sqrt()))
+    }
+    #[inline(always)]
+    fn above(self) -> Self {
+        Self(each!(i => self.0[i].next_up()))
+    }
+    #[inline(always)]
+    fn below(self) -> Self {
+        Self(each!(i => self.0[i].next_down()))
+    }
+    #[inline(always)]
     fn abs(self) -> Self {
         Self(each!(i => self.0[i].abs()))
     }
@@ -133,6 +159,10 @@ impl Vector for Plain {
     #[inline(always)]
     fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask {
         each!(i => a[i] | b[i])
+    }
+    #[inline(always)]
+    fn not(mask: Self::Mask) -> Self::Mask {
+        each!(i => !mask[i])
     }
     #[inline(always)]
     fn always() -> Self::Mask {
