@@ -109,6 +109,29 @@ impl Scratch {
     }
 }
 
+/// The operation that blocks have in vectors.
+fn in_vectors(op: Op) -> Option<Arithmetic> {
+    match op {
+        Op::Unary(op) => match op {
+            Unary::Neg => Some(Arithmetic::Neg),
+            Unary::Sqr => Some(Arithmetic::Sqr),
+            Unary::Sqrt => Some(Arithmetic::Sqrt),
+            Unary::Abs => Some(Arithmetic::Abs),
+            _ => None,
+        },
+        Op::Binary(op) => match op {
+            Binary::Add => Some(Arithmetic::Add),
+            Binary::Sub => Some(Arithmetic::Sub),
+            Binary::Mul => Some(Arithmetic::Mul),
+            Binary::Div => Some(Arithmetic::Div),
+            Binary::Min => Some(Arithmetic::Min),
+            Binary::Max => Some(Arithmetic::Max),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
 /// Runs a tape on a block whose slots 0 to 6 hold parameter, directions and starting points; tells where the value is.
 fn run_block<F: Number + Packed>(
     tape: &Tape,
@@ -127,19 +150,14 @@ fn run_block<F: Number + Packed>(
         let (a, b) = (places[clause.a as usize], places[clause.b as usize]);
         let out = OWN + clause.out as usize;
         last = out;
-        match clause.op {
-            Op::Constant(index) => block.fill(out, F::constant(tape.constants()[index as usize])),
+        match (clause.op, in_vectors(clause.op)) {
+            (_, Some(op)) => block.arithmetic(level, op, out, a, b),
+            (Op::Constant(index), _) => block.fill(out, F::constant(tape.constants()[index as usize])),
             // Nothing writes the slots of the axes: they need no copy.
-            Op::Axis(axis) => last = 1 + axis as usize,
-            Op::Unary(Unary::Neg) => block.arithmetic(level, Arithmetic::Neg, out, a, a),
-            Op::Unary(Unary::Sqr) => block.arithmetic(level, Arithmetic::Sqr, out, a, a),
-            Op::Binary(Binary::Add) => block.arithmetic(level, Arithmetic::Add, out, a, b),
-            Op::Binary(Binary::Sub) => block.arithmetic(level, Arithmetic::Sub, out, a, b),
-            Op::Binary(Binary::Mul) => block.arithmetic(level, Arithmetic::Mul, out, a, b),
-            Op::Binary(Binary::Div) => block.arithmetic(level, Arithmetic::Div, out, a, b),
-            Op::Unary(op) => block.map(lanes, out, a, |x| x.unary(op)),
-            Op::Powi(n) => block.power(level, lanes, n, out, a),
-            Op::Binary(op) => block.map2(lanes, out, a, b, |x, y| x.binary(op, y)),
+            (Op::Axis(axis), _) => last = 1 + axis as usize,
+            (Op::Unary(op), _) => block.map(lanes, out, a, |x| x.unary(op)),
+            (Op::Powi(n), _) => block.power(level, lanes, n, out, a),
+            (Op::Binary(op), _) => block.map2(lanes, out, a, b, |x, y| x.binary(op, y)),
         }
         places[clause.out as usize] = last;
     }

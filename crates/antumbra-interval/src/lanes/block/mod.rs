@@ -40,11 +40,20 @@ pub enum Arithmetic {
     Div,
     /// `a^2`.
     Sqr,
+    /// Square root.
+    Sqrt,
+    /// `|a|`.
+    Abs,
+    /// The smaller one.
+    Min,
+    /// The larger one.
+    Max,
 }
 
 impl Arithmetic {
     /// Every operation.
-    pub const ALL: [Self; 6] = [Self::Neg, Self::Add, Self::Sub, Self::Mul, Self::Div, Self::Sqr];
+    pub const ALL: [Self; 10] =
+        [Self::Neg, Self::Add, Self::Sub, Self::Mul, Self::Div, Self::Sqr, Self::Sqrt, Self::Abs, Self::Min, Self::Max];
 }
 
 /// An operation and its slots, as offsets in vectors of numbers.
@@ -111,6 +120,10 @@ macro_rules! arithmetic {
                 Arithmetic::Mul => a * b,
                 Arithmetic::Div => a / b,
                 Arithmetic::Sqr => a.sqr(),
+                Arithmetic::Sqrt => a.sqrt(),
+                Arithmetic::Abs => a.abs(),
+                Arithmetic::Min => a.min(b),
+                Arithmetic::Max => a.max(b),
             }
         }
     };
@@ -363,6 +376,10 @@ fn act<V: Vector, F: Packed>(act: Act, memory: &mut [Eight], vectors: usize) {
         Operation::Arithmetic(Arithmetic::Mul) => each!(x = 0, y = 1 => x.mul(y)),
         Operation::Arithmetic(Arithmetic::Div) => each!(x = 0, y = 1 => x.div(y)),
         Operation::Arithmetic(Arithmetic::Sqr) => each!(x = 0 => x.sqr()),
+        Operation::Arithmetic(Arithmetic::Sqrt) => each!(x = 0 => x.sqrt()),
+        Operation::Arithmetic(Arithmetic::Abs) => each!(x = 0 => x.abs()),
+        Operation::Arithmetic(Arithmetic::Min) => each!(x = 0, y = 1 => x.min(y)),
+        Operation::Arithmetic(Arithmetic::Max) => each!(x = 0, y = 1 => x.max(y)),
         Operation::Power(n) => each!(x = 0 => x.power(n)),
         Operation::Coordinate => each!(t = 0, d = 1, p = 2 => Kernel::coordinate(t, d, p)),
     }

@@ -3,6 +3,8 @@
 //! Every operation is the IEEE 754 one in round to nearest on each of the eight, and nothing is contracted, so a formula
 //! written with it gives the same bits on every level, and those of the same formula on single numbers.
 
+use crate::round;
+
 /// Lanes of one vector.
 pub const WIDTH: usize = 8;
 
@@ -15,6 +17,8 @@ pub struct Eight(pub [f64; WIDTH]);
 pub trait Vector: Copy {
     /// Eight answers.
     type Mask: Copy;
+    /// Whether vectors linearise powers faster than the scalar operator does in the lanes that need it.
+    const LINEARISES: bool;
     /// Eight times `x`.
     fn splat(x: f64) -> Self;
     /// From memory.
@@ -60,6 +64,10 @@ pub trait Vector: Copy {
     fn all(mask: Self::Mask) -> bool {
         Self::bits(mask) == u8::MAX
     }
+    /// The upper half of the bits, as a whole number; of numbers that are not negative.
+    fn top(self) -> Self;
+    /// The number with this upper half of the bits and nothing below, of whole numbers below 2^31 (else of the nearest one).
+    fn from_top(self) -> Self;
     /// `self > o ? self : o`.
     fn greater(self, o: Self) -> Self;
     /// `self < o ? self : o`.
@@ -84,6 +92,7 @@ macro_rules! each {
 
 impl Vector for Plain {
     type Mask = [bool; WIDTH];
+    const LINEARISES: bool = false;
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self([x; WIDTH])
@@ -123,6 +132,14 @@ impl Vector for Plain {
     #[inline(always)]
     fn below(self) -> Self {
         Self(each!(i => self.0[i].next_down()))
+    }
+    #[inline(always)]
+    fn top(self) -> Self {
+        Self(each!(i => round::top(self.0[i])))
+    }
+    #[inline(always)]
+    fn from_top(self) -> Self {
+        Self(each!(i => round::from_top(self.0[i])))
     }
     #[inline(always)]
     fn abs(self) -> Self {

@@ -4,16 +4,17 @@
 //! [`on_avx2`]. Nothing else of the crate makes such vectors.
 use super::vector::{Eight, Vector};
 use super::{Act, Packed, act};
-use crate::round::ETA;
+use crate::round::{ETA, WHOLE};
 use std::arch::x86_64::{
     __m256d, __m256i, __m512d, __mmask8, _CMP_EQ_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_epi64, _mm256_add_pd,
     _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_cmp_pd,
     _mm256_cmpgt_epi64, _mm256_div_pd, _mm256_load_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
-    _mm256_or_pd, _mm256_or_si256, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_setzero_si256, _mm256_sqrt_pd,
-    _mm256_store_pd, _mm256_sub_epi64, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd, _mm512_add_epi64, _mm512_add_pd,
-    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_load_pd, _mm512_mask_blend_pd,
-    _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_or_epi64, _mm512_set1_epi64, _mm512_set1_pd, _mm512_sqrt_pd,
-    _mm512_srai_epi64, _mm512_store_pd, _mm512_sub_epi64, _mm512_sub_pd, _mm512_xor_epi64,
+    _mm256_or_pd, _mm256_or_si256, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_setzero_si256, _mm256_slli_epi64,
+    _mm256_sqrt_pd, _mm256_srli_epi64, _mm256_store_pd, _mm256_sub_epi64, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd,
+    _mm512_add_epi64, _mm512_add_pd, _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd,
+    _mm512_load_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_or_epi64,
+    _mm512_set1_epi64, _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srai_epi64, _mm512_srli_epi64,
+    _mm512_store_pd, _mm512_sub_epi64, _mm512_sub_pd, _mm512_xor_epi64,
 };
 
 /// Proof that this processor and operating system support AVX2.
@@ -42,6 +43,7 @@ pub(super) struct V256([__m256d; 2]);
 // the feature. Loads and stores are of 64 bytes behind a reference, aligned by the type.
 impl Vector for V512 {
     type Mask = __mmask8;
+    const LINEARISES: bool = true;
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self(unsafe { _mm512_set1_pd(x) })
@@ -93,6 +95,21 @@ impl Vector for V512 {
             let next = _mm512_castsi512_pd(_mm512_sub_epi64(x, sign));
             let zero = _mm512_cmp_pd_mask::<_CMP_EQ_OQ>(self.0, _mm512_set1_pd(0.0));
             Self(_mm512_mask_blend_pd(zero, next, _mm512_set1_pd(-ETA)))
+        }
+    }
+    #[inline(always)]
+    fn top(self) -> Self {
+        unsafe {
+            let k = _mm512_srli_epi64::<32>(_mm512_castpd_si512(self.0));
+            let whole = _mm512_or_epi64(k, _mm512_castpd_si512(_mm512_set1_pd(WHOLE)));
+            Self(_mm512_sub_pd(_mm512_castsi512_pd(whole), _mm512_set1_pd(WHOLE)))
+        }
+    }
+    #[inline(always)]
+    fn from_top(self) -> Self {
+        unsafe {
+            let whole = _mm512_castpd_si512(_mm512_add_pd(self.0, _mm512_set1_pd(WHOLE)));
+            Self(_mm512_castsi512_pd(_mm512_slli_epi64::<32>(whole)))
         }
     }
     #[inline(always)]
@@ -173,6 +190,7 @@ impl V256 {
 
 impl Vector for V256 {
     type Mask = [__m256d; 2];
+    const LINEARISES: bool = true;
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self(unsafe { [_mm256_set1_pd(x); 2] })
@@ -229,6 +247,27 @@ impl Vector for V256 {
             ]
         };
         Self::select(Self::both(self.le(zero), zero.le(self)), Self::splat(-ETA), Self(next))
+    }
+    #[inline(always)]
+    fn top(self) -> Self {
+        let whole = Self::splat(WHOLE);
+        let k = unsafe {
+            [
+                _mm256_castsi256_pd(_mm256_srli_epi64::<32>(_mm256_castpd_si256(self.0[0]))),
+                _mm256_castsi256_pd(_mm256_srli_epi64::<32>(_mm256_castpd_si256(self.0[1]))),
+            ]
+        };
+        Self(halves!(_mm256_or_pd k, whole.0)).sub(whole)
+    }
+    #[inline(always)]
+    fn from_top(self) -> Self {
+        let whole = self.add(Self::splat(WHOLE));
+        Self(unsafe {
+            [
+                _mm256_castsi256_pd(_mm256_slli_epi64::<32>(_mm256_castpd_si256(whole.0[0]))),
+                _mm256_castsi256_pd(_mm256_slli_epi64::<32>(_mm256_castpd_si256(whole.0[1]))),
+            ]
+        })
     }
     #[inline(always)]
     fn abs(self) -> Self {

@@ -11,22 +11,9 @@ pub struct AffineOf<V, const N: usize> {
     pub(super) a: [V; N],
 }
 
-macro_rules! coefficients {
-    ($i:ident => $value:expr) => {{
-        // Not from_fn: a closure would not take the features of the function around it.
-        let mut out = [V::splat(0.0); N];
-        let mut $i = 0;
-        while $i < N {
-            out[$i] = $value;
-            $i += 1;
-        }
-        out
-    }};
-}
-
 impl<V: Vector, const N: usize> AffineOf<V, N> {
     #[inline(always)]
-    fn sealed(c: V, a: [V; N], e: V, size: V) -> Self {
+    pub(super) fn sealed(c: V, a: [V; N], e: V, size: V) -> Self {
         let known = size.lt(V::splat(LARGE));
         if V::all(known) {
             return Self { c, e, a };
@@ -240,8 +227,24 @@ impl<V: Vector, const N: usize> Kernel<V> for AffineOf<V, N> {
         (self.square(), V::always())
     }
     #[inline(always)]
+    fn sqrt(self) -> (Self, V::Mask) {
+        self.root()
+    }
+    #[inline(always)]
+    fn abs(self) -> (Self, V::Mask) {
+        self.size()
+    }
+    #[inline(always)]
+    fn min(self, o: Self) -> (Self, V::Mask) {
+        (self.smaller(o), V::always())
+    }
+    #[inline(always)]
+    fn max(self, o: Self) -> (Self, V::Mask) {
+        (self.larger(o), V::always())
+    }
+    #[inline(always)]
     fn power(self, n: u32) -> (Self, V::Mask) {
-        (self.product(n), self.narrow(n))
+        self.powi(n)
     }
     #[inline(always)]
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask) {

@@ -49,11 +49,43 @@ impl<V: Vector, const N: usize> Kernel<V> for DualOf<V, N> {
         let derivative = self.value.times(self.derivative).scaled(2.0);
         (Self { value: self.value.square(), derivative }, V::always())
     }
-    /// `n f^(n-1) f'`; what is narrow enough for n is for n - 1.
+    /// `f' / (2 sqrt f)`.
+    #[inline(always)]
+    fn sqrt(self) -> (Self, V::Mask) {
+        let (value, proper) = self.value.root();
+        let (slope, fine) = value.scaled(2.0).recip();
+        (Self { value, derivative: self.derivative.times(slope) }, V::both(proper, fine))
+    }
+    #[inline(always)]
+    fn abs(self) -> (Self, V::Mask) {
+        let (value, proper) = self.value.size();
+        let (d, negative) = (self.derivative, self.derivative.negative());
+        let derivative = AffineOf::by_sign(self.value.range(), d, negative, d.between(negative));
+        (Self { value, derivative }, proper)
+    }
+    #[inline(always)]
+    fn min(self, o: Self) -> (Self, V::Mask) {
+        let (larger, proper) = self.neg().0.max(o.neg().0);
+        (larger.neg().0, proper)
+    }
+    #[inline(always)]
+    fn max(self, o: Self) -> (Self, V::Mask) {
+        let difference = self.value.minus(o.value).range();
+        let (d, other) = (self.derivative, o.derivative);
+        let derivative = AffineOf::by_sign(difference, d, other, d.between(other));
+        (Self { value: self.value.larger(o.value), derivative }, V::always())
+    }
+    /// `n f^(n-1) f'`.
     #[inline(always)]
     fn power(self, n: u32) -> (Self, V::Mask) {
-        let derivative = self.value.product(n - 1).scaled(f64::from(n)).times(self.derivative);
-        (Self { value: self.value.product(n), derivative }, self.value.narrow(n))
+        let (mut lower, mut value, mut proper) = (self.value, self.value, V::always());
+        // A loop, so that the long formulas stand in the code once.
+        for m in n - 1..=n {
+            let (power, fine) = self.value.powi(m);
+            (lower, value, proper) = (value, power, V::both(proper, fine));
+        }
+        let derivative = lower.scaled(f64::from(n)).times(self.derivative);
+        (Self { value, derivative }, proper)
     }
     #[inline(always)]
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask) {

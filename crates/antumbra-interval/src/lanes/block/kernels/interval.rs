@@ -27,7 +27,7 @@ fn sum_error<V: Vector>(a: V, b: V, r: V) -> V {
 impl<V: Vector> IntervalOf<V> {
     /// A zero term, or a sum that is zero, is exact. Sums that overflow, of empty lanes, or with a NaN are done again.
     #[inline(always)]
-    fn plus(self, o: Self) -> (Self, V::Mask) {
+    pub(super) fn plus(self, o: Self) -> (Self, V::Mask) {
         let (lo, hi) = (self.lo.add(o.lo), self.hi.add(o.hi));
         let finite = V::both(lo.abs().le(V::splat(f64::MAX)), hi.abs().le(V::splat(f64::MAX)));
         let value = Self { lo: lo.sub(sum_error(self.lo, o.lo, lo)), hi: hi.add(sum_error(self.hi, o.hi, hi)) };
@@ -37,7 +37,7 @@ impl<V: Vector> IntervalOf<V> {
     /// The scalar operator picks the extreme corners by signs. They are the least and the largest of all four, also rounded, as
     /// rounding is monotone; and so is the step outward, which leads to the neighbouring float there.
     #[inline(always)]
-    fn times(self, o: Self) -> (Self, V::Mask) {
+    pub(super) fn times(self, o: Self) -> (Self, V::Mask) {
         let (p, q, r, s) = (self.lo.mul(o.lo), self.lo.mul(o.hi), self.hi.mul(o.lo), self.hi.mul(o.hi));
         let (lo, hi) = (p.lesser(q).lesser(r.lesser(s)), p.greater(q).greater(r.greater(s)));
         let value = Self { lo: lo.sub(step(lo)), hi: hi.add(step(hi)) };
@@ -77,6 +77,19 @@ impl<V: Vector> IntervalOf<V> {
     pub(super) fn positive_square(self) -> Self {
         let (l, h) = (self.lo.mul(self.lo), self.hi.mul(self.hi));
         Self { lo: l.sub(step(l)), hi: h.add(step(h)) }
+    }
+
+    /// One number.
+    #[inline(always)]
+    pub(super) fn exact(x: V) -> Self {
+        Self { lo: x, hi: x }
+    }
+
+    /// No number in these lanes.
+    #[inline(always)]
+    fn empty_where(mask: V::Mask, x: Self) -> Self {
+        let infinite = V::splat(f64::INFINITY);
+        Self { lo: V::select(mask, infinite, x.lo), hi: V::select(mask, infinite.neg(), x.hi) }
     }
 
     /// The floats on both sides of finite numbers.
@@ -122,6 +135,32 @@ impl<V: Vector> IntervalOf<V> {
         }
     }
 
+    /// The power of such numbers that begins with a product by 1: of the scalar operator on one number.
+    #[inline(always)]
+    pub(super) fn chain_from_one(x: V, n: u32, up: bool) -> V {
+        let (mut square, mut rest, mut product) = (x, n, V::splat(1.0));
+        loop {
+            if rest & 1 == 1 {
+                product = Self::rounded(product.mul(square), up);
+            }
+            rest >>= 1;
+            if rest == 0 {
+                return product;
+            }
+            square = Self::rounded(square.mul(square), up);
+        }
+    }
+
+    /// Times a positive number, of intervals on one side of 0; [+0, -0] of 0.
+    #[inline(always)]
+    pub(super) fn times_count(self, n: f64) -> Self {
+        let (l, h, zero) = (V::splat(n).mul(self.lo), V::splat(n).mul(self.hi), V::splat(0.0));
+        Self {
+            lo: V::select(l.abs().le(zero), zero, l.sub(step(l))),
+            hi: V::select(h.abs().le(zero), zero.neg(), h.add(step(h))),
+        }
+    }
+
     #[inline(always)]
     fn rounded(r: V, up: bool) -> V {
         if up { r.add(step(r)) } else { r.sub(step(r)) }
@@ -147,7 +186,7 @@ impl<V: Vector> IntervalOf<V> {
 
     /// Both ends of a size between these.
     #[inline(always)]
-    fn within(self, small: f64, large: f64) -> V::Mask {
+    pub(super) fn within(self, small: f64, large: f64) -> V::Mask {
         let (small, large) = (V::splat(small), V::splat(large));
         let fits = V::both(self.lo.abs().lt(large), self.hi.abs().lt(large));
         V::both(fits, V::both(small.lt(self.lo.abs()), small.lt(self.hi.abs())))
@@ -193,6 +232,36 @@ impl<V: Vector> Kernel<V> for IntervalOf<V> {
         let (l, h) = (near.mul(near), far.mul(far));
         let value = Self { lo: V::select(across, zero, l.sub(step(l))), hi: h.add(step(h)) };
         (value, self.moderate())
+    }
+    /// Empty intervals, and those below 0, are done again.
+    #[inline(always)]
+    fn sqrt(self) -> (Self, V::Mask) {
+        let (l, h, zero) = (self.lo.sqrt(), self.hi.sqrt(), V::splat(0.0));
+        let value = Self {
+            lo: V::select(self.lo.le(zero), zero, l.sub(step(l))),
+            hi: V::select(h.le(zero), h, h.add(step(h))),
+        };
+        (value, V::both(self.lo.le(self.hi), zero.le(self.hi)))
+    }
+    #[inline(always)]
+    fn abs(self) -> (Self, V::Mask) {
+        let (zero, negative) = (V::splat(0.0), self.negative());
+        let (above, below) = (zero.le(self.lo), self.hi.le(zero));
+        let lo = V::select(above, self.lo, V::select(below, negative.lo, zero));
+        let across = negative.hi.greater(self.hi);
+        (Self { lo, hi: V::select(above, self.hi, V::select(below, negative.hi, across)) }, V::always())
+    }
+    #[inline(always)]
+    fn min(self, o: Self) -> (Self, V::Mask) {
+        let empty = V::either(self.hi.lt(self.lo), o.hi.lt(o.lo));
+        let value = Self { lo: self.lo.lesser(o.lo), hi: self.hi.lesser(o.hi) };
+        (Self::empty_where(empty, value), V::always())
+    }
+    #[inline(always)]
+    fn max(self, o: Self) -> (Self, V::Mask) {
+        let empty = V::either(self.hi.lt(self.lo), o.hi.lt(o.lo));
+        let value = Self { lo: self.lo.greater(o.lo), hi: self.hi.greater(o.hi) };
+        (Self::empty_where(empty, value), V::always())
     }
     #[inline(always)]
     fn power(self, n: u32) -> (Self, V::Mask) {

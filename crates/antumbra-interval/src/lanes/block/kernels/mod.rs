@@ -1,6 +1,21 @@
 //! The formulas of the scalar operators on vectors, step by step the same. Why they enclose is said there: `affine`,
 //! `arith`, `power`, `round`.
+/// An array of the coefficients of a form.
+macro_rules! coefficients {
+    ($i:ident => $value:expr) => {{
+        // Not from_fn: a closure would not take the features of the function around it.
+        let mut out = [V::splat(0.0); N];
+        let mut $i = 0;
+        while $i < N {
+            out[$i] = $value;
+            $i += 1;
+        }
+        out
+    }};
+}
+
 mod affine;
+mod choice;
 mod curve;
 mod dual;
 mod interval;
@@ -29,6 +44,14 @@ pub trait Kernel<V: Vector>: Copy {
     fn div(self, o: Self) -> (Self, V::Mask);
     /// `a^2`.
     fn sqr(self) -> (Self, V::Mask);
+    /// Square root of the part that is not negative.
+    fn sqrt(self) -> (Self, V::Mask);
+    /// `|a|`.
+    fn abs(self) -> (Self, V::Mask);
+    /// The smaller one.
+    fn min(self, o: Self) -> (Self, V::Mask);
+    /// The larger one.
+    fn max(self, o: Self) -> (Self, V::Mask);
     /// `a^n`, 3 <= n <= 8.
     fn power(self, n: u32) -> (Self, V::Mask);
     /// `p + t d`.
