@@ -67,7 +67,7 @@ pub trait Vector: Copy {
     /// The upper half of the bits, as a whole number; of numbers that are not negative.
     fn top(self) -> Self;
     /// The number with this upper half of the bits and nothing below, of whole numbers below 2^31 (else of the nearest one).
-    fn from_top(self) -> Self;
+    fn with_top(self) -> Self;
     /// `self > o ? self : o`.
     fn greater(self, o: Self) -> Self;
     /// `self < o ? self : o`.
@@ -138,8 +138,8 @@ impl Vector for Plain {
         Self(each!(i => round::top(self.0[i])))
     }
     #[inline(always)]
-    fn from_top(self) -> Self {
-        Self(each!(i => round::from_top(self.0[i])))
+    fn with_top(self) -> Self {
+        Self(each!(i => round::with_top(self.0[i])))
     }
     #[inline(always)]
     fn abs(self) -> Self {

@@ -106,7 +106,7 @@ impl Vector for V512 {
         }
     }
     #[inline(always)]
-    fn from_top(self) -> Self {
+    fn with_top(self) -> Self {
         unsafe {
             let whole = _mm512_castpd_si512(_mm512_add_pd(self.0, _mm512_set1_pd(WHOLE)));
             Self(_mm512_castsi512_pd(_mm512_slli_epi64::<32>(whole)))
@@ -260,7 +260,7 @@ impl Vector for V256 {
         Self(halves!(_mm256_or_pd k, whole.0)).sub(whole)
     }
     #[inline(always)]
-    fn from_top(self) -> Self {
+    fn with_top(self) -> Self {
         let whole = self.add(Self::splat(WHOLE));
         Self(unsafe {
             [

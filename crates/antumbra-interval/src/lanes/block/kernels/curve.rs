@@ -169,7 +169,7 @@ impl<V: Vector> Curve<V> for Root {
 fn about_root<V: Vector>(x: V, k: u32) -> V {
     let (steps, inverse) = (f64::from(k - 1), 1.0 / f64::from(k));
     let guess = x.top().mul(V::splat(inverse)).add(V::splat(ROOT_OF_ONE * (steps * inverse)));
-    let mut r = guess.from_top();
+    let mut r = guess.with_top();
     for _ in 0..3 {
         let mut power = r;
         for _ in 2..k {
