@@ -279,7 +279,7 @@ impl Search {
             }
         } else if let Some(found) = contract(t, form).filter(|c| smaller(c.open, t)) {
             self.stack.extend(found.tail(t).map(|(t, sign)| Next::Free(t, sign)));
-            let again = curved(form) && self.shape.long(found.open, self.reach);
+            let again = curved(form) && self.reach.resolves(found.open);
             if again {
                 self.stack.push(Next::Look(found.open));
             }

@@ -12,7 +12,7 @@ const ASPECT: f64 = 2.0;
 const SMALLER: f64 = 0.75;
 
 /// How far a function may be off its plane, in what it varies across a frustum, before shorter pieces are looked at.
-const CURVED: f64 = 0.25;
+const CURVED: f64 = 0.1;
 
 /// Relative width of an enclosure of f' up to which a step of Newton's gains more for its cost than a new form.
 const STRAIGHT: f64 = 1e-3;
@@ -37,6 +37,11 @@ impl Reach {
         let end = (0..3).map(side).fold(0.0, f64::max);
         Self(if end.is_finite() { 1e-3 * end } else { 0.0 })
     }
+
+    /// Whether a piece is long enough to be looked at alone.
+    pub(super) fn resolves(self, t: Interval) -> bool {
+        t.hi() - t.lo() > 1e-9 * t.hi().max(self.0)
+    }
 }
 
 /// The sizes of a fan that decide how it is cut.
@@ -60,8 +65,8 @@ impl Shape {
 
     /// Whether a piece is long enough to be halved rather than divided across.
     pub(super) fn long(&self, t: Interval, reach: Reach) -> bool {
-        let (length, at) = (t.hi() - t.lo(), t.hi().max(reach.0));
-        length * self.speed > ASPECT * self.spread * t.hi() && length > 1e-9 * at
+        let length = t.hi() - t.lo();
+        length * self.speed > ASPECT * self.spread * t.hi() && reach.resolves(t)
     }
 }
 
