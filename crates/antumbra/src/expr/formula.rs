@@ -1,7 +1,7 @@
 //! The formula as a value: a graph and its root.
 use super::{
-    Axis, Binary, Derivative, Error, ErrorKind, Graph, MAX_SOURCE, Node, NodeId, Surface, Unary,
-    derivative::derivative, lower::lower, print, statement, surface::zero_set,
+    Axis, Binary, Derivative, Error, ErrorKind, Graph, MAX_SOURCE, Node, NodeId, Surface, Unary, Writing,
+    derivative::derivative, forms, lower::lower, print, statement, surface::zero_set,
 };
 use num_traits::Zero;
 use std::{fmt, ops::Range};
@@ -118,6 +118,15 @@ impl Formula {
             };
         }
         Self { root: place[self.root.index()], graph }
+    }
+
+    /// The same function on the same domain, written in other ways: see [`Writing`]. In a fixed order, each once, without this one; none for
+    /// formulas of more than 1000 operations.
+    ///
+    /// Cost: a millisecond or two at most, however it is written: what would become too long is not multiplied out.
+    #[must_use]
+    pub fn forms(&self) -> Vec<(Writing, Self)> {
+        forms::forms(self)
     }
 
     /// Without operations that the root does not use.

@@ -31,6 +31,7 @@ mod error;
 mod exact;
 mod facts;
 mod formula;
+mod forms;
 mod function;
 mod graph;
 #[allow(
@@ -65,6 +66,7 @@ pub use error::{Error, ErrorKind};
 pub(crate) use exact::cost as cost_of_constant;
 pub(crate) use facts::{Facts, given as facts_given};
 pub use formula::Formula;
+pub use forms::Writing;
 pub use graph::{Graph, Node, NodeId};
 pub(crate) use lexer::{is_name, is_number, number};
 pub use op::{Axis, Binary, Unary};

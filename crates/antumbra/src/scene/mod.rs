@@ -4,6 +4,7 @@ mod animation;
 mod camera;
 mod entry;
 mod file;
+mod form;
 mod framing;
 mod gallery;
 mod light;

@@ -1,7 +1,7 @@
 //! A surface of a scene.
-use super::{Coloring, Finish};
+use super::{Coloring, Finish, form};
 use crate::eval::Inclusion;
-use crate::expr::{self, Formula};
+use crate::expr::{self, Formula, Writing};
 use crate::geom::Clip;
 use crate::tape::{Tape, TapeError};
 use std::sync::Arc;
@@ -38,6 +38,17 @@ pub struct Object {
     // Together, so that no clip is ever paired with the region of another.
     clip: Clip,
     region: Clip,
+    source: Source,
+}
+
+/// From what the surface was compiled.
+#[derive(Clone)]
+struct Source {
+    formula: Arc<Formula>,
+    written: Arc<dyn Inclusion>,
+    /// The form in which it is drawn.
+    chosen: Arc<dyn Inclusion>,
+    writing: Writing,
 }
 
 impl std::fmt::Debug for Object {
@@ -75,14 +86,32 @@ impl Object {
     }
 
     fn of(text: String, simple: &Formula, clip: Clip) -> Result<Self, Error> {
-        let tape = Tape::compile(&simple.surface().formula().repeated_squares())?;
+        let formula = simple.surface().into_formula();
+        let written: Arc<dyn Inclusion> = Arc::new(Tape::compile(&formula.repeated_squares())?);
+        let surface = Arc::clone(&written);
         let (colors, finish, coloring) = Default::default();
-        Ok(Self { text, surface: Arc::new(tape), colors, finish, coloring, clip, region: clip }.with_clip(clip))
+        let source = Source {
+            formula: Arc::new(formula),
+            written,
+            chosen: Arc::clone(&surface),
+            writing: Writing::Written,
+        };
+        Ok(Self { text, surface, colors, finish, coloring, clip, region: clip, source }.with_clip(clip))
     }
 
-    /// The same surface in another clip. Searches for a proof that the clip cuts nothing away (a second at most).
+    /// The same surface in another clip. Searches for a proof that the clip cuts nothing away (a second at most), and for the form of
+    /// the formula that is the least work there ([`writing`](Self::writing); some milliseconds).
     #[must_use]
     pub fn with_clip(mut self, clip: Clip) -> Self {
+        self = self.as_written();
+        if let Some(written) = self.source.written.as_tape()
+            && Arc::ptr_eq(&self.surface, &self.source.written)
+            && let Some(form::Chosen { writing, tape }) = form::choose(&self.source.formula, written, &clip.bounds())
+        {
+            self.surface = Arc::new(tape);
+            self.source.chosen = Arc::clone(&self.surface);
+            self.source.writing = writing;
+        }
         self.region = super::framing::region(self.surface.as_ref(), &clip);
         self.clip = clip;
         self
@@ -98,5 +127,23 @@ impl Object {
     #[must_use]
     pub fn region(&self) -> Clip {
         self.region
+    }
+
+    /// In which form its formula is drawn: another one than the written one where that is proved to be the same function, and less work.
+    #[must_use]
+    pub fn writing(&self) -> Writing {
+        self.source.writing
+    }
+
+    /// The same surface, drawn in the form in which its formula is written. A surface that was put in place of the compiled one
+    /// stays.
+    #[must_use]
+    pub fn as_written(mut self) -> Self {
+        if Arc::ptr_eq(&self.surface, &self.source.chosen) {
+            self.surface = Arc::clone(&self.source.written);
+        }
+        self.source.chosen = Arc::clone(&self.source.written);
+        self.source.writing = Writing::Written;
+        self
     }
 }
