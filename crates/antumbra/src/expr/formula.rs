@@ -120,10 +120,11 @@ impl Formula {
         Self { root: place[self.root.index()], graph }
     }
 
-    /// The same function on the same domain, written in other ways: see [`Writing`]. In a fixed order, each once, without this one; none for
-    /// formulas of more than 1000 operations.
+    /// The same function on the same domain, written in other ways: see [`Writing`]. In a fixed order; some may be equal, or equal to this one. None for
+    /// formulas of more than 500 operations.
     ///
-    /// Cost: a millisecond or two at most, however it is written: what would become too long is not multiplied out.
+    /// Cost: a millisecond or two for formulas of some dozens of operations, ten times that at most: what would become too long is not
+    /// multiplied out.
     #[must_use]
     pub fn forms(&self) -> Vec<(Writing, Self)> {
         forms::forms(self)

@@ -219,7 +219,7 @@ impl<'a> Stage<'a> {
 /// Distance from a point beyond which an object has nothing in its clip, up to a sixteenth of the clip, where that is more than `least`; 0 where
 /// it is not, and for long formulas, which are not searched.
 fn farthest(object: &Object, from: Vec3, least: f64) -> f64 {
-    let (f, bounds) = (object.surface.as_ref(), object.clip().bounds());
+    let (f, bounds) = (object.framed(), object.clip().bounds());
     let distance =
         |cell: &Box3| Vec3(std::array::from_fn(|k| (cell[k].hi() - from[k]).max(from[k] - cell[k].lo()))).length();
     let mut most = 0.0_f64;

@@ -90,12 +90,8 @@ impl Object {
         let written: Arc<dyn Inclusion> = Arc::new(Tape::compile(&formula.repeated_squares())?);
         let surface = Arc::clone(&written);
         let (colors, finish, coloring) = Default::default();
-        let source = Source {
-            formula: Arc::new(formula),
-            written,
-            chosen: Arc::clone(&surface),
-            writing: Writing::Written,
-        };
+        let source =
+            Source { formula: Arc::new(formula), written, chosen: Arc::clone(&surface), writing: Writing::Written };
         Ok(Self { text, surface, colors, finish, coloring, clip, region: clip, source }.with_clip(clip))
     }
 
@@ -104,16 +100,16 @@ impl Object {
     #[must_use]
     pub fn with_clip(mut self, clip: Clip) -> Self {
         self = self.as_written();
-        if let Some(written) = self.source.written.as_tape()
-            && Arc::ptr_eq(&self.surface, &self.source.written)
+        self.region = super::framing::region(self.surface.as_ref(), &clip);
+        self.clip = clip;
+        if Arc::ptr_eq(&self.surface, &self.source.written)
+            && let Some(written) = self.surface.as_tape()
             && let Some(form::Chosen { writing, tape }) = form::choose(&self.source.formula, written, &clip.bounds())
         {
             self.surface = Arc::new(tape);
             self.source.chosen = Arc::clone(&self.surface);
             self.source.writing = writing;
         }
-        self.region = super::framing::region(self.surface.as_ref(), &clip);
-        self.clip = clip;
         self
     }
 
@@ -129,21 +125,32 @@ impl Object {
         self.region
     }
 
-    /// In which form its formula is drawn: another one than the written one where that is proved to be the same function, and less work.
+    /// In which form its formula is drawn: the written one, or another of the same real function ([`Formula::forms`]) that was found to
+    /// be less work in this clip.
     #[must_use]
     pub fn writing(&self) -> Writing {
         self.source.writing
     }
 
-    /// The same surface, drawn in the form in which its formula is written. A surface that was put in place of the compiled one
+    /// The same surface, drawn in the form in which its formula is written. A function that was put in place of the compiled one
     /// stays.
     #[must_use]
     pub fn as_written(mut self) -> Self {
-        if Arc::ptr_eq(&self.surface, &self.source.chosen) {
+        if self.is_compiled() {
             self.surface = Arc::clone(&self.source.written);
         }
         self.source.chosen = Arc::clone(&self.source.written);
         self.source.writing = Writing::Written;
         self
+    }
+
+    /// The function by which a scene is framed: as written, so that the form in which it is drawn moves no camera.
+    pub(super) fn framed(&self) -> &dyn Inclusion {
+        if self.is_compiled() { self.source.written.as_ref() } else { self.surface.as_ref() }
+    }
+
+    /// Nobody has put another function in place of the one that was compiled.
+    fn is_compiled(&self) -> bool {
+        Arc::ptr_eq(&self.surface, &self.source.chosen)
     }
 }

@@ -18,7 +18,7 @@ use antumbra_interval::Interval;
 pub const MAX_CLAUSES: usize = 1 << 20;
 
 /// What a [`Clause`] computes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Op {
     /// The constant of that index in [`Tape::constants`].
     Constant(u32),

@@ -1,10 +1,10 @@
 //! Polynomials as operations: Horner forms, common factors, completed squares.
 use super::super::{Axis, Binary, Graph, Node, NodeId, Unary};
-use super::polynomial::{Atom, Monomial, Polynomial, WORK};
+use super::polynomial::{Atom, Limit, Monomial, Polynomial};
 use super::{expansion::Expansion, square};
 use num_rational::BigRational;
 use num_traits::{One, Signed};
-use std::cmp::Reverse;
+use std::{cmp::Reverse, collections::BTreeMap};
 
 /// How sums are written.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -25,14 +25,21 @@ pub(super) struct Builder<'a> {
     graph: Graph,
     /// Where nodes of the source are in the graph that is built.
     place: Vec<Option<NodeId>>,
-    work: usize,
+    limit: Limit,
 }
 
 /// The formula of an expansion, written in that style: the same real function, as every step is an identity of polynomials with
 /// exact coefficients.
-pub(super) fn write(source: &Graph, root: NodeId, expansion: &Expansion<'_>, needed: &[bool], style: Style) -> (Graph, NodeId) {
+pub(super) fn write(
+    source: &Graph,
+    root: NodeId,
+    expansion: &Expansion<'_>,
+    needed: &[bool],
+    style: Style,
+    most: usize,
+) -> (Graph, NodeId) {
     let mut builder =
-        Builder { source, style, graph: Graph::new(true), place: vec![None; needed.len()], work: WORK };
+        Builder { source, style, graph: Graph::new(true), place: vec![None; needed.len()], limit: Limit::new(most) };
     for i in (0..needed.len()).filter(|&i| needed[i]) {
         let id = source.id(i);
         builder.place[i] = Some(match expansion.of(id) {
@@ -55,7 +62,8 @@ fn placed(place: &[Option<NodeId>], index: usize) -> NodeId {
 }
 
 impl Builder<'_> {
-    /// Recursion: each level has fewer terms in its factored part or its rest, so it is no deeper than twice the most terms.
+    /// Recursion: what goes down has fewer terms, or as many of lower degree without their common factor, or is a square's root: some
+    /// hundred levels at most.
     fn sum(&mut self, p: &Polynomial) -> NodeId {
         let mut terms = p.terms();
         let (first, second) = (terms.next(), terms.next());
@@ -63,6 +71,12 @@ impl Builder<'_> {
             (None, _) => return self.graph.integer(0),
             (Some((m, q)), None) => return self.term(m, q),
             _ => {}
+        }
+        if is_negative(p)
+            && let Some(p) = p.scaled(&-BigRational::one())
+        {
+            let positive = self.sum(&p);
+            return self.graph.unary(Unary::Neg, positive);
         }
         if let Some((c, p)) = content(p) {
             let (c, inner) = (self.graph.rational(c), self.sum(&p));
@@ -75,45 +89,57 @@ impl Builder<'_> {
         }
         let Some((atom, n)) = self.best_factor(p) else { return self.leaves(p) };
         let (quotient, rest) = p.split(atom, n);
-        // A factor of negative terms only is subtracted.
-        let negative = quotient.terms().all(|(_, q)| q.is_negative());
-        let quotient = if negative { quotient.scaled(&-BigRational::one()).unwrap_or(quotient) } else { quotient };
-        let (power, inner) = (self.power(atom, n), self.sum(&quotient));
+        let power = self.power(atom, n);
+        let (negative, inner) = self.signed(&quotient);
         let product = self.graph.binary(Binary::Mul, power, inner);
-        if rest.len() == 0 {
-            return if negative { self.graph.unary(Unary::Neg, product) } else { product };
-        }
-        let rest = self.sum(&rest);
-        let op = if negative { Binary::Sub } else { Binary::Add };
-        if negative { self.graph.binary(op, rest, product) } else { self.graph.binary(op, product, rest) }
+        self.with_rest((negative, product), &rest)
     }
 
     fn square(&mut self, p: &Polynomial) -> Option<NodeId> {
         let mut atoms = p.atoms();
         atoms.retain(|atom| !self.is_constant(*atom));
         atoms.sort_by_key(|atom| self.rank(*atom));
-        let square = atoms.into_iter().find_map(|v| square::complete(p, v, &mut self.work))?;
+        let square = atoms.into_iter().find_map(|v| square::complete(p, v, &mut self.limit))?;
         let root = self.sum(&square.root);
         let power = self.graph.unary(Unary::Sqr, root);
-        let factor = self.graph.rational(square.factor);
+        let factor = self.graph.rational(square.factor.abs());
         let product = self.graph.binary(Binary::Mul, factor, power);
-        if square.rest.len() == 0 {
-            return Some(product);
+        Some(self.with_rest((square.factor.is_negative(), product), &square.rest))
+    }
+
+    /// A sum, or minus one without minus signs: what is subtracted needs no operation for its sign.
+    fn signed(&mut self, p: &Polynomial) -> (bool, NodeId) {
+        match is_negative(p).then(|| p.scaled(&-BigRational::one())).flatten() {
+            Some(positive) => (true, self.sum(&positive)),
+            None => (false, self.sum(p)),
         }
-        let rest = self.sum(&square.rest);
-        Some(self.graph.binary(Binary::Add, product, rest))
+    }
+
+    /// A signed term and the rest of its sum.
+    fn with_rest(&mut self, (negative, term): (bool, NodeId), rest: &Polynomial) -> NodeId {
+        if rest.len() == 0 {
+            return self.added(None, negative, term);
+        }
+        let (subtracted, rest) = self.signed(rest);
+        if negative {
+            let rest = self.added(None, subtracted, rest);
+            return self.added(Some(rest), true, term);
+        }
+        self.added(Some(term), subtracted, rest)
     }
 
     /// The atom to be factored out of two terms or more, and its least exponent in them.
     fn best_factor(&self, p: &Polynomial) -> Option<(Atom, u32)> {
-        let count = |atom: Atom| p.terms().filter(|(m, _)| m.exponent(atom) > 0).count();
-        let candidates = p.atoms().into_iter().map(|atom| (atom, count(atom))).filter(|(_, n)| *n >= 2);
-        let first = |(atom, n): &(Atom, usize)| {
-            let n = if self.style.strict { 0 } else { *n };
-            (self.is_constant(*atom), Reverse(n), self.rank(*atom))
+        let mut found: BTreeMap<Atom, (usize, u32)> = BTreeMap::new();
+        for &(atom, n) in p.terms().flat_map(|(m, _)| m.powers()) {
+            let (count, least) = found.entry(atom).or_insert((0, n));
+            (*count, *least) = (*count + 1, n.min(*least));
+        }
+        let first = |(atom, (count, _)): &(Atom, (usize, u32))| {
+            let count = if self.style.strict { 0 } else { *count };
+            (self.is_constant(*atom), Reverse(count), self.rank(*atom))
         };
-        let (atom, _) = candidates.min_by_key(first)?;
-        let least = p.terms().map(|(m, _)| m.exponent(atom)).filter(|n| *n > 0).min()?;
+        let (atom, (_, least)) = found.into_iter().filter(|(_, (count, _))| *count >= 2).min_by_key(first)?;
         Some((atom, least))
     }
 
@@ -204,6 +230,11 @@ impl Builder<'_> {
         };
         (place.unwrap_or(3), atom)
     }
+}
+
+/// Whether all coefficients are negative.
+fn is_negative(p: &Polynomial) -> bool {
+    p.terms().all(|(_, q)| q.is_negative())
 }
 
 /// `(c, p / c)` if all coefficients are c or -c, which is not 1; c has the sign of the last term.

@@ -1,6 +1,6 @@
 //! The polynomial parts of a formula.
 use super::super::{Binary, Graph, Node, NodeId, Unary};
-use super::polynomial::{Polynomial, WORK};
+use super::polynomial::{Limit, Polynomial};
 use num_rational::BigRational;
 use num_traits::{One, Zero};
 
@@ -25,11 +25,11 @@ pub(super) enum Depth {
 }
 
 impl<'a> Expansion<'a> {
-    pub(super) fn new(graph: &'a Graph, used: &[bool], depth: Depth) -> Self {
+    pub(super) fn new(graph: &'a Graph, used: &[bool], depth: Depth, most: usize) -> Self {
         let mut expansion = Self { graph, polynomials: vec![None; used.len()] };
-        let mut work = WORK;
+        let mut limit = Limit::new(most);
         for i in (0..used.len()).filter(|&i| used[i]) {
-            expansion.polynomials[i] = expansion.expand(graph.id(i), depth, &mut work);
+            expansion.polynomials[i] = expansion.expand(graph.id(i), depth, &mut limit);
         }
         expansion
     }
@@ -49,21 +49,22 @@ impl<'a> Expansion<'a> {
         self.of(id).filter(|p| p.len() <= 1).cloned().unwrap_or_else(|| Polynomial::atom(id.0))
     }
 
-    fn expand(&self, id: NodeId, depth: Depth, work: &mut usize) -> Option<Polynomial> {
-        let sum = |a: NodeId, c: BigRational, b: NodeId| {
-            let whole = self.operand(a).plus(&c, &self.operand(b));
-            whole.or_else(|| self.factor(a).plus(&c, &self.factor(b)))
+    fn expand(&self, id: NodeId, depth: Depth, limit: &mut Limit) -> Option<Polynomial> {
+        let sum = |a: NodeId, c: BigRational, b: NodeId, limit: &mut Limit| {
+            let copied = limit.spend(self.of(a).map_or(1, Polynomial::len));
+            let whole = copied.and_then(|()| self.operand(a).plus(&c, &self.operand(b), limit));
+            whole.or_else(|| self.factor(a).plus(&c, &self.factor(b), limit))
         };
         match self.graph.node(id) {
             _ if self.graph.exact(id).is_some() => self.graph.exact(id).cloned().map(Polynomial::constant),
             Node::Unary(Unary::Neg, a) => self.operand(a).scaled(&-BigRational::one()),
-            Node::Unary(Unary::Sqr, a) => self.power(a, 2, depth, work),
-            Node::Powi(a, n) => self.power(a, u32::try_from(n).ok().filter(|n| *n > 0)?, depth, work),
-            Node::Binary(Binary::Add, a, b) => sum(a, BigRational::one(), b),
-            Node::Binary(Binary::Sub, a, b) => sum(a, -BigRational::one(), b),
+            Node::Unary(Unary::Sqr, a) => self.power(a, 2, depth, limit),
+            Node::Powi(a, n) => self.power(a, u32::try_from(n).ok().filter(|n| *n > 0)?, depth, limit),
+            Node::Binary(Binary::Add, a, b) => sum(a, BigRational::one(), b, limit),
+            Node::Binary(Binary::Sub, a, b) => sum(a, -BigRational::one(), b, limit),
             Node::Binary(Binary::Mul, a, b) => {
-                let whole = (depth == Depth::All).then(|| self.operand(a).times(&self.operand(b), work)).flatten();
-                whole.or_else(|| self.factor(a).times(&self.factor(b), &mut WORK.clone()))
+                let whole = (depth == Depth::All).then(|| self.operand(a).times(&self.operand(b), limit)).flatten();
+                whole.or_else(|| self.factor(a).times(&self.factor(b), limit))
             }
             Node::Binary(Binary::Div, a, b) => {
                 let divisor = self.graph.exact(b).filter(|q| !q.is_zero())?;
@@ -73,9 +74,9 @@ impl<'a> Expansion<'a> {
         }
     }
 
-    fn power(&self, a: NodeId, n: u32, depth: Depth, work: &mut usize) -> Option<Polynomial> {
-        let whole = (depth == Depth::All).then(|| self.operand(a).power(n, work)).flatten();
-        whole.or_else(|| self.factor(a).power(n, &mut WORK.clone()))
+    fn power(&self, a: NodeId, n: u32, depth: Depth, limit: &mut Limit) -> Option<Polynomial> {
+        let whole = (depth == Depth::All).then(|| self.operand(a).power(n, limit)).flatten();
+        whole.or_else(|| self.factor(a).power(n, limit))
     }
 
     /// Which nodes have to be computed so that the root can be: atoms of polynomials, operands of opaque nodes.

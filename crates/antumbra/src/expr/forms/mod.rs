@@ -14,8 +14,6 @@ mod build;
 mod expansion;
 mod polynomial;
 mod square;
-#[cfg(test)]
-mod tests;
 
 use super::{Axis, Formula};
 use build::Style;
@@ -53,7 +51,11 @@ impl fmt::Display for Writing {
 }
 
 /// Formulas with more operations are not rewritten.
-const MOST_NODES: usize = 1000;
+const MOST_NODES: usize = 500;
+/// Most terms of a polynomial: what has more is not multiplied out.
+const MOST_TERMS: usize = 120;
+/// The same, of short formulas.
+const LEAST_TERMS: usize = 16;
 
 const X: [Axis; 3] = [Axis::X, Axis::Y, Axis::Z];
 const Y: [Axis; 3] = [Axis::Y, Axis::Z, Axis::X];
@@ -67,33 +69,31 @@ pub(super) fn forms(formula: &Formula) -> Vec<(Writing, Formula)> {
         return forms;
     }
     let used = graph.reachable(root);
+    // A sum of so many terms takes about as many operations, if no square is completed: more than the formula has are not worth it.
+    let most = graph.nodes().len().clamp(LEAST_TERMS, MOST_TERMS);
     for depth in [Depth::Sums, Depth::All] {
-        let expansion = Expansion::new(graph, &used, depth);
+        let expansion = Expansion::new(graph, &used, depth, most);
         let needed = expansion.needed(root);
         if !expansion.keeps_domain(&used, &needed) {
             continue;
         }
-        let mut write = |writing: Writing, order: [Axis; 3], strict: bool, squares: bool| {
-            for pairs in [false, true] {
-                let style = Style { order, strict, squares, pairs };
-                let (graph, root) = build::write(graph, root, &expansion, &needed, style);
-                let form = Formula::new(graph, root).compacted();
-                if !form.same_as(formula) && !forms.iter().any(|(_, known)| known.same_as(&form)) {
-                    forms.push((writing, form));
-                }
-            }
+        let mut write = |writing: Writing, style: Style| {
+            let (graph, root) = build::write(graph, root, &expansion, &needed, style, most);
+            forms.push((writing, Formula::new(graph, root).compacted()));
         };
+        let plain = Style { order: X, strict: false, squares: false, pairs: true };
         if depth == Depth::Sums {
-            write(Writing::Factored, X, false, false);
-            write(Writing::Squares, X, false, true);
+            write(Writing::Factored, Style { pairs: false, ..plain });
+            write(Writing::Factored, plain);
+            write(Writing::Squares, Style { squares: true, ..plain });
             continue;
         }
         for order in [X, Y, Z] {
-            write(Writing::Horner(order[0]), order, false, false);
-            write(Writing::Horner(order[0]), order, true, false);
+            write(Writing::Horner(order[0]), Style { order, ..plain });
+            write(Writing::Horner(order[0]), Style { order, strict: true, ..plain });
         }
-        write(Writing::AllSquares, X, false, true);
-        write(Writing::AllSquares, Z, false, true);
+        write(Writing::AllSquares, Style { squares: true, ..plain });
+        write(Writing::AllSquares, Style { squares: true, order: Z, ..plain });
     }
     forms
 }

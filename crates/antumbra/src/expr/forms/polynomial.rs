@@ -5,12 +5,30 @@ use num_traits::{One, Zero};
 use smallvec::SmallVec;
 use std::collections::BTreeMap;
 
-/// Most terms of a polynomial: what has more is not multiplied out.
-pub(super) const MOST_TERMS: usize = 200;
 /// Largest exponent of a sum that is multiplied out.
 const MOST_POWER: u32 = 16;
-/// Products of coefficients that one expansion of a formula may take: under a millisecond.
-pub(super) const WORK: usize = 4000;
+/// Operations on coefficients that an expansion, or writing a form, may take: some hundred microseconds.
+const WORK: usize = 10_000;
+
+/// What may still be done.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Limit {
+    terms: usize,
+    work: usize,
+}
+
+impl Limit {
+    /// Polynomials of that many terms at most.
+    pub(super) fn new(terms: usize) -> Self {
+        Self { terms, work: WORK }
+    }
+
+    /// `None` where that many operations are too many.
+    pub(super) fn spend(&mut self, operations: usize) -> Option<()> {
+        self.work = self.work.checked_sub(operations)?;
+        Some(())
+    }
+}
 
 /// Place, in the graph of the formula as written, of a node that is taken as an unknown.
 pub(super) type Atom = u32;
@@ -118,7 +136,7 @@ impl Polynomial {
     }
 
     /// `self + c m`.
-    fn add_term(&mut self, m: Monomial, c: &BigRational) -> Option<()> {
+    fn add_term(&mut self, m: Monomial, c: &BigRational, limit: &Limit) -> Option<()> {
         match self.0.entry(m) {
             std::collections::btree_map::Entry::Vacant(place) => {
                 place.insert(c.clone());
@@ -132,13 +150,14 @@ impl Polynomial {
                 }
             }
         }
-        (self.0.len() <= MOST_TERMS).then_some(())
+        (self.0.len() <= limit.terms).then_some(())
     }
 
     /// `self + c other`.
-    pub(super) fn plus(mut self, c: &BigRational, other: &Self) -> Option<Self> {
+    pub(super) fn plus(mut self, c: &BigRational, other: &Self, limit: &mut Limit) -> Option<Self> {
+        limit.spend(other.len())?;
         for (m, q) in &other.0 {
-            self.add_term(m.clone(), &exact::binary(Binary::Mul, c, q)?)?;
+            self.add_term(m.clone(), &exact::binary(Binary::Mul, c, q)?, limit)?;
         }
         Some(self)
     }
@@ -151,19 +170,19 @@ impl Polynomial {
         terms.collect::<Option<_>>().map(Self)
     }
 
-    /// The product; `work` loses a step for each pair of terms.
-    pub(super) fn times(&self, other: &Self, work: &mut usize) -> Option<Self> {
-        *work = work.checked_sub(self.len() * other.len())?;
+    /// The product.
+    pub(super) fn times(&self, other: &Self, limit: &mut Limit) -> Option<Self> {
+        limit.spend(self.len() * other.len())?;
         let mut product = Self::default();
         for (m, p) in &self.0 {
             for (n, q) in &other.0 {
-                product.add_term(m.times(n)?, &exact::binary(Binary::Mul, p, q)?)?;
+                product.add_term(m.times(n)?, &exact::binary(Binary::Mul, p, q)?, limit)?;
             }
         }
         Some(product)
     }
 
-    pub(super) fn power(&self, n: u32, work: &mut usize) -> Option<Self> {
+    pub(super) fn power(&self, n: u32, limit: &mut Limit) -> Option<Self> {
         if let (1, Some((m, q))) = (self.len(), self.0.first_key_value()) {
             let q = exact::powi(q, i32::try_from(n).ok()?)?;
             return Some(Self(BTreeMap::from([(m.power(n)?, q)])));
@@ -171,7 +190,7 @@ impl Polynomial {
         if n > MOST_POWER {
             return None;
         }
-        (0..n).try_fold(Self::constant(BigRational::one()), |power, _| power.times(self, work))
+        (0..n).try_fold(Self::constant(BigRational::one()), |power, _| power.times(self, limit))
     }
 
     /// `(q, r)` with `self = of^n q + r`: q has the terms that `of^n` divides.

@@ -1,8 +1,8 @@
 //! Completed squares.
-use super::polynomial::{Atom, Polynomial};
+use super::polynomial::{Atom, Limit, Polynomial};
 use num_integer::Integer;
 use num_rational::BigRational;
-use num_traits::Zero;
+use num_traits::{One, Zero};
 
 /// `p = factor root^2 + rest`.
 pub(super) struct Square {
@@ -21,7 +21,7 @@ const MOST_DEGREE: u32 = 16;
 /// those known before. So `p = A s^2 + r`, where r is *defined* as the exact difference: whatever s is, nothing changes but the form.
 ///
 /// `None` where that is no square worth completing: none of a sum, or one that leaves more terms than there were.
-pub(super) fn complete(p: &Polynomial, v: Atom, work: &mut usize) -> Option<Square> {
+pub(super) fn complete(p: &Polynomial, v: Atom, limit: &mut Limit) -> Option<Square> {
     let exponents = || p.terms().map(|(m, _)| m.exponent(v));
     let step = exponents().fold(0, |a, b| a.gcd(&b));
     let degree = exponents().max()?.checked_div(step)?;
@@ -39,16 +39,17 @@ pub(super) fn complete(p: &Polynomial, v: Atom, work: &mut usize) -> Option<Squa
         // Those of s_i s_l with i + l = k + j, both below k and above j.
         let mut known = Polynomial::default();
         for i in j + 1..k {
-            known = known.plus(&factor, &s[i].times(&s[k + j - i], work)?)?;
+            known = known.plus(&factor, &s[i].times(&s[k + j - i], limit)?, limit)?;
         }
-        s[j] = c[k + j].clone().plus(&minus, &known)?.scaled(&half)?;
+        s[j] = c[k + j].clone().plus(&minus, &known, limit)?.scaled(&half)?;
     }
     let mut root = Polynomial::power_of(v, k as u32 * step);
     for (j, s) in s.iter().enumerate() {
-        root = root.plus(&BigRational::from_integer(1.into()), &s.times(&Polynomial::power_of(v, j as u32 * step), work)?)?;
+        let term = s.times(&Polynomial::power_of(v, j as u32 * step), limit)?;
+        root = root.plus(&BigRational::one(), &term, limit)?;
     }
-    let square = root.times(&root, work)?.scaled(&factor)?;
-    let rest = p.clone().plus(&minus, &square)?;
+    let square = root.times(&root, limit)?.scaled(&factor)?;
+    let rest = p.clone().plus(&minus, &square, limit)?;
     let worth = root.len() >= 2 && rest.len() < p.len() && !factor.is_zero();
     worth.then_some(Square { factor, root, rest })
 }
