@@ -168,8 +168,30 @@ fn check(text: &str, input: &mut Input<'_>) {
     for p in points {
         same(text, &tapes, p);
     }
+    for (writing, form) in simple.forms() {
+        let form = Tape::compile(&form.repeated_squares()).expect("a short formula");
+        if form.clauses().len() <= MOST_CLAUSES {
+            let [simple, form] = [&tapes[1], &form].map(|tape| Truth::at(tape, points[0]));
+            equal(&format!("{text:?}, {writing}, at {:?}", points[0]), &simple, &form);
+        }
+    }
     for tape in tapes.iter().filter(|tape| tape.is_continuous_everywhere()) {
         continuity::attack(tape, points[0], points[1]);
+    }
+}
+
+/// Both are the same value, or both are undefined.
+fn equal(what: &str, a: &Truth, b: &Truth) {
+    match (a, b) {
+        (Truth::Undefined, Truth::Undefined) => {}
+        (Truth::Undefined, other) | (other, Truth::Undefined) => {
+            assert!(other.enclosure().is_none(), "{what}: {a:?} became {b:?}");
+        }
+        _ => {
+            if let (Some(before), Some(after)) = (a.enclosure(), b.enclosure()) {
+                assert!(before.possibly_intersects(after), "{what}: {before} became {after}");
+            }
+        }
     }
 }
 
@@ -177,17 +199,7 @@ fn check(text: &str, input: &mut Input<'_>) {
 fn same(text: &str, tapes: &[Tape; 3], p: [f64; 3]) {
     let [written, simple, surface] = tapes.each_ref().map(|tape| Truth::at(tape, p));
     let defined = |truth: &Truth| truth.enclosure();
-    match (&written, &simple) {
-        (Truth::Undefined, Truth::Undefined) => {}
-        (Truth::Undefined, other) | (other, Truth::Undefined) => {
-            assert!(defined(other).is_none(), "{text:?} at {p:?}: written {written:?}, simplified {simple:?}");
-        }
-        _ => {
-            if let (Some(a), Some(b)) = (defined(&written), defined(&simple)) {
-                assert!(a.possibly_intersects(b), "{text:?} at {p:?}: written {a}, simplified {b}");
-            }
-        }
-    }
+    equal(&format!("{text:?} at {p:?}"), &written, &simple);
     for (zero, other) in [(&simple, &surface), (&surface, &simple)] {
         let certainly_zero = defined(zero).is_some_and(|v| v.lo() == 0.0 && v.hi() == 0.0);
         let certainly_not = matches!(other, Truth::Undefined) || defined(other).is_some_and(|v| !v.possibly_zero());
