@@ -83,7 +83,7 @@ mod tests {
             for k in 0..1000 {
                 let (a, z) = (0.7 * f64::from(k), f64::from(k) / 500.0 - 1.0);
                 let r = (1.0 - z * z).max(0.0).sqrt();
-                let p = [r * a.cos(), r * a.sin(), z];
+                let p = [r * core_math::cos(a), r * core_math::sin(a), z];
                 assert!(cells.iter().any(|cell| (0..3).all(|i| cell[i].contains(p[i]))), "{text}: {p:?} is lost");
             }
         }
