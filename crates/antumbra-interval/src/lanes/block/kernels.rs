@@ -1,5 +1,9 @@
 //! The formulas of the scalar operators on vectors, step by step the same. Why they enclose is said there: `affine::arith`,
 //! `affine::dual`, `arith`, `round`.
+mod forms;
+
+pub(super) use forms::{JetOf, PointJetOf, QuadraticOf, SlopeLanes};
+
 use super::vector::{Eight, Vector};
 use crate::affine::{LARGE, TINY, U};
 use crate::round::{ETA, PHI};

@@ -8,6 +8,7 @@
 //! **Layout.** `[slot][vector][component][8 lanes]`, 64-byte aligned: an operation reads and writes whole cache lines, one
 //! stream per operand.
 mod kernels;
+mod kinds;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -60,7 +61,8 @@ enum Operation {
     Coordinate,
 }
 
-/// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`] and [`Dual`]: only for these.
+/// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`], [`Dual`], [`PointJet`](crate::PointJet),
+/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes of the last two: only for these.
 pub trait Packed: Copy + sealed::Sealed {
     /// Numbers in it.
     const COMPONENTS: usize;
@@ -112,6 +114,7 @@ macro_rules! ring {
         }
     };
 }
+use ring;
 
 impl Packed for Interval {
     const COMPONENTS: usize = 2;
