@@ -2,6 +2,7 @@
 //!
 //! A search is written as if it were alone; where it asks the [`Desk`] it waits (it is `async`, the desk is all that it ever waits
 //! for). Answers are the bits of those to single questions, so the company of a search changes nothing of what it finds.
+use super::second::Learned;
 use crate::eval::{Inclusion, JetPoint, JetSlopePoint, PointJet, QuadraticPoint, QuadraticSlopePoint, Workspace};
 use crate::trace::Surface;
 use antumbra_interval::affine::{Affine, Jet};
@@ -14,6 +15,7 @@ use std::task::{Context, Poll};
 pub(super) struct Desk<'a> {
     surfaces: &'a [Surface<'a>],
     work: RefCell<&'a mut Workspace>,
+    learned: RefCell<Learned>,
     /// One for each surface.
     piles: Vec<Piles>,
 }
@@ -90,13 +92,18 @@ impl<Q: Question> Pile<Q, Q::Answer> {
 }
 
 impl<'a> Desk<'a> {
-    pub(super) fn new(surfaces: &'a [Surface<'a>], work: &'a mut Workspace) -> Self {
+    pub(super) fn new(surfaces: &'a [Surface<'a>], work: &'a mut Workspace, learned: Learned) -> Self {
         let piles = surfaces.iter().map(|_| Piles::default()).collect();
-        Self { surfaces, work: RefCell::new(work), piles }
+        Self { surfaces, work: RefCell::new(work), learned: RefCell::new(learned), piles }
     }
 
     pub(super) fn surfaces(&self) -> &'a [Surface<'a>] {
         self.surfaces
+    }
+
+    /// What searches have learned of choices: one at once from another. Rounds go in a fixed order, so it is always the same.
+    pub(super) fn learned(&self) -> RefMut<'_, Learned> {
+        self.learned.borrow_mut()
     }
 
     /// For what is asked without waiting.

@@ -139,13 +139,13 @@ pub fn visibles(
     s: &mut Scratch,
     work: &mut Workspace,
 ) -> Vec<(Bracket, Cost)> {
-    let desk = Desk::new(surfaces, work);
+    let desk = Desk::new(surfaces, work, s.learned);
     let mut out = vec![(Bracket::LIT, Cost::default()); hits.len()];
     let mut coming = hits.iter().enumerate();
     let mut searches = Vec::new();
     let mut context = Context::from_waker(Waker::noop());
     loop {
-        while searches.len() < s.learned.company()
+        while searches.len() < desk.learned().company()
             && let Some((index, hit)) = coming.next()
         {
             if hit.known.settled() {
@@ -153,20 +153,20 @@ pub fn visibles(
                 out[index].0 = Bracket { lo, hi, reason: None, first_free: hit.known.whole() && lo == 1.0 };
                 continue;
             }
-            let worth = s.learned.worth(tolerance.penumbra);
+            let worth = desk.learned().worth(tolerance.penumbra);
             let mut own = s.idle.pop().unwrap_or_default();
-            *own.second.learned() = s.learned;
             own.second.claims = s.claims.is_some().then(Vec::new);
-            searches.push((index, s.learned, Box::pin(search(&desk, hit, worth, tolerance, own))));
+            searches.push((index, Box::pin(search(&desk, hit, worth, tolerance, own))));
         }
         if searches.is_empty() {
+            s.learned = *desk.learned();
             return out;
         }
-        searches.retain_mut(|(index, before, search)| {
+        searches.retain_mut(|(index, search)| {
             let Poll::Ready(found) = search.as_mut().poll(&mut context) else { return true };
             let Found { bracket, cost, settled, mut own } = found;
             out[*index] = (bracket, cost);
-            s.learned.take(before, own.second.learned(), settled);
+            desk.learned().done(settled);
             if let (Some(all), Some(claims)) = (&mut s.claims, own.second.claims.take()) {
                 all.extend(claims);
             }

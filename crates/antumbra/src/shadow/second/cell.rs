@@ -1,5 +1,5 @@
 //! One rectangle of a light, seen from one hit, to second order.
-use super::policy::{self, CORES, Learned, Nearest, Plan, Trial, between};
+use super::policy::{self, CORES, Nearest, Plan, Trial, between};
 use super::slab::{Cell, Convexity, Kind, Looker, Slab, State, merged};
 use crate::geom::Sheet;
 use crate::geom::strips::{self, Areas, Curve, areas};
@@ -34,7 +34,6 @@ pub(super) struct Scratch {
     constraints: Vec<Constraint>,
     curves: Vec<Curve>,
     areas: strips::Scratch,
-    pub(super) learned: Learned,
     /// Evaluations before this cell.
     before: u64,
 }
@@ -108,10 +107,10 @@ async fn plain(
 ) -> Settled {
     let extent = cell.extent(slab);
     if slab.state == State::Outer && extent.lo > Trial::NEAREST {
-        let trial = &mut s.learned.trials[usize::from(cell.shape.short(extent))];
-        if trial.worth() {
+        let which = usize::from(cell.shape.short(extent));
+        if desk.learned().trials[which].worth() {
             let free = cell.certainly_free(slab, &mut desk.work(), cost);
-            trial.tell(free);
+            desk.learned().trials[which].tell(free);
             if free {
                 return Settled::Slab;
             }
@@ -173,7 +172,7 @@ async fn narrow(
         _ => {
             let whole =
                 Slab { lo: slab.lo.below(plan.slopes(), part), hi: slab.hi.above(plan.slopes(), part), ..*slab };
-            let (core, bend) = core(cell, slab, &whole, &plan, s, desk, cost).await;
+            let (core, bend) = core(cell, slab, &whole, &plan, desk, cost).await;
             if core != *slab && core.hi != whole.hi {
                 s.stack.push(Slab { lo: core.hi, hi: whole.hi, state: State::Outer, ..*slab });
             }
@@ -219,7 +218,6 @@ async fn core(
     slab: &Slab,
     whole: &Slab,
     plan: &Plan,
-    s: &mut Scratch,
     desk: &Desk<'_>,
     cost: &mut Cost,
 ) -> (Slab, Option<(Kind, f64)>) {
@@ -235,13 +233,13 @@ async fn core(
                 Slab { lo, hi, ..*whole }
             }
         };
-        if last.is_some_and(|(before, _)| before == part) || (k + 1 < CORES.len() && !s.learned.cores[k].worth()) {
+        if last.is_some_and(|(before, _)| before == part) || (k + 1 < CORES.len() && !desk.learned().cores[k].worth()) {
             continue;
         }
         let kind = cell.kind(&part);
         let bend = cell.bend(&part, kind, desk, cost).await;
         let enough = bend.is_some_and(|bend| plan.bends_enough(bend));
-        s.learned.cores[k].tell(enough);
+        desk.learned().cores[k].tell(enough);
         last = Some((part, bend.map(|bend| (kind, bend))));
         if enough {
             break;

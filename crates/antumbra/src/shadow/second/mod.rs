@@ -82,13 +82,6 @@ pub(super) struct Fraction {
     pub(super) cells: u32,
 }
 
-impl Scratch {
-    /// What choices are based on.
-    pub(super) fn learned(&mut self) -> &mut Learned {
-        &mut self.cell.learned
-    }
-}
-
 impl Fraction {
     /// Whether the bracket is as narrow as was asked for.
     pub(super) fn narrow(&self, tolerance: Tolerance) -> bool {

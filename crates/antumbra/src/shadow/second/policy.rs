@@ -34,7 +34,10 @@ const CERTAIN: u32 = 9;
 const FAIR: f64 = 4000.0;
 
 /// Most hits that are looked at together: enough to fill lanes with each kind of question, few enough to stay in a cache.
-const COMPANY: usize = 64;
+const COMPANY: usize = 32;
+/// How many of them begin, and how many join when one is done.
+const FIRST: usize = 8;
+const JOIN: usize = 2;
 
 /// Sizes of a cell, in plain numbers.
 pub(super) struct Shape {
@@ -314,12 +317,11 @@ impl Trust {
     }
 }
 
-/// What hits teach those after them: of choices only. Hits that are looked at together begin with the same knowledge, and teach when
-/// they are done.
+/// What searches teach each other: of choices only.
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::shadow) struct Learned {
     trust: Trust,
-    /// Hits that have taught.
+    /// Hits that are done.
     hits: usize,
     /// Plain intervals for long and for short slabs.
     pub(super) trials: [Trial; 2],
@@ -337,25 +339,16 @@ impl Learned {
         }
     }
 
-    /// How many hits are to be looked at together: few at first, who teach the others; one by one where the method fails.
+    /// How many hits are to be looked at together: few at first, who teach the others; alone where the method fails.
     pub(in crate::shadow) fn company(&self) -> usize {
-        if self.trust.failures > 0 { 1 } else { (1 + self.hits).min(COMPANY) }
+        if self.trust.failures > 0 { 1 } else { (FIRST + JOIN * self.hits).min(COMPANY) }
     }
 
-    /// Takes over what a hit found that had begun with `before` and ended with `after`, and whether the method settled it if it was
-    /// tried.
-    pub(in crate::shadow) fn take(&mut self, before: &Self, after: &Self, settled: Option<bool>) {
+    /// A hit is done; whether the method settled it, if it was tried.
+    pub(in crate::shadow) fn done(&mut self, settled: Option<bool>) {
         self.hits += 1;
         if let Some(settled) = settled {
             self.trust.tell(settled);
-        }
-        let trials = self.trials.iter_mut().chain(&mut self.cores);
-        let before = before.trials.iter().chain(&before.cores);
-        let after = after.trials.iter().chain(&after.cores);
-        for ((trial, before), after) in trials.zip(before).zip(after) {
-            trial.asked += after.asked - before.asked;
-            trial.run += after.run - before.run;
-            trial.free += after.free - before.free;
         }
     }
 }

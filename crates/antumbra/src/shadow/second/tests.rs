@@ -1,6 +1,6 @@
 //! The steps one by one, on functions of which everything is known.
 use super::cell::{self, Answer, fall, level, look};
-use super::policy::Plan;
+use super::policy::{Learned, Plan};
 use super::slab::{Cell, Convexity, Kind, Slab, State};
 use crate::eval::{Gradient, Inclusion, JetPoint, QuadraticPoint, Workspace};
 use crate::geom::{Box3, Clip, Rect, Sheet, Vec3};
@@ -152,7 +152,7 @@ fn a_convex_range_must_not_grow() {
     let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut scratch, mut work, mut cost) = (cell::Scratch::default(), Workspace::default(), Cost::default());
-    let desk = Desk::new(&surfaces, &mut work);
+    let desk = Desk::new(&surfaces, &mut work, Learned::default());
     // g'' > 0 up to z = 0.3845 only: here it is proved, and the valley's floor is at 0.3.
     let (lo, hi) = (Sheet::level(0.05), Sheet::level(0.37));
     let known = Convexity { kind: Kind::Plain, bend: 0.0, least_at: Sheet::level(0.3) };
@@ -187,7 +187,7 @@ fn bends_and_slopes_are_enclosed() {
     let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut work, mut cost, mut state) = (Workspace::default(), Cost::default(), 3);
-    let desk = Desk::new(&surfaces, &mut work);
+    let desk = Desk::new(&surfaces, &mut work, Learned::default());
     let cell = Cell::new(&query, &[1.0; 2], [Interval::new(-1.0, 0.0), Interval::new(0.5, 1.0)]);
     let (lo, hi) = (Sheet { k: 0.27, slopes: [0.01, 0.0] }, Sheet { k: 0.32, slopes: [0.0, 0.01] });
     let slab = Slab { surface: 1, lo, hi, state: State::Outer };
@@ -278,7 +278,7 @@ fn crossing_sheets_enclose_what_lies_between() {
     let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut work, mut cost) = (Workspace::default(), Cost::default());
-    let desk = Desk::new(&surfaces, &mut work);
+    let desk = Desk::new(&surfaces, &mut work, Learned::default());
     let part = [Interval::new(-0.5, 0.25), Interval::new(0.0, 1.0)];
     let cell = Cell::new(&query, &[1.0; 2], part);
     let mut state = 9;
