@@ -1,8 +1,10 @@
 //! The formulas of the scalar operators on vectors, step by step the same. Why they enclose is said there: `affine::arith`,
 //! `affine::dual`, `arith`, `round`.
 mod forms;
+mod slopes;
 
-pub(super) use forms::{JetOf, PointJetOf, QuadraticOf, SlopeLanes};
+pub(super) use forms::{JetOf, PointJetOf, QuadraticOf};
+pub(super) use slopes::SlopeLanes;
 
 use super::vector::{Eight, Vector};
 use crate::affine::{LARGE, TINY, U};

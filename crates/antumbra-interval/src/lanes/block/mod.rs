@@ -62,7 +62,7 @@ enum Operation {
 }
 
 /// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`], [`Dual`], [`PointJet`](crate::PointJet),
-/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes of the last two: only for these.
+/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes: only for these.
 pub trait Packed: Copy + sealed::Sealed {
     /// Numbers in it.
     const COMPONENTS: usize;

@@ -171,11 +171,14 @@ impl<'a> Cell<'a> {
         if slab.lo.slopes == slab.hi.slopes {
             let half = (Interval::point(slab.hi.k) - Interval::point(slab.lo.k)) * Interval::point(0.5);
             let t = mean + s.mul_interval(half);
-            std::array::from_fn(|k| Quadratic::product_of(&t, &self.fan.direction[k]).add_interval(apex[k]))
+            // No from_fn here and below: its closures are not always inlined.
+            let at = |k: usize| Quadratic::product_of(&t, &self.fan.direction[k]).add_interval(apex[k]);
+            [at(0), at(1), at(2)]
         } else {
             let half = (slab.hi.form(&self.symbols) - slab.lo.form(&self.symbols)).mul_f64(0.5);
             let t = Quadratic::from(mean) + Quadratic::product_of(&half, &s);
-            std::array::from_fn(|k| (t * Quadratic::from(self.fan.direction[k])).add_interval(apex[k]))
+            let at = |k: usize| (t * Quadratic::from(self.fan.direction[k])).add_interval(apex[k]);
+            [at(0), at(1), at(2)]
         }
     }
 
@@ -186,12 +189,12 @@ impl<'a> Cell<'a> {
         let [form] = match kind {
             Kind::Plain => desk.ask(slab.surface, [points]).await,
             Kind::Slope => {
-                let slopes = std::array::from_fn(|k| SlopeOf {
+                let at = |k: usize| SlopeOf {
                     apex: self.fan.apex[k],
                     value: points[k],
                     slope: Quadratic::from(self.fan.direction[k]),
-                });
-                desk.ask(slab.surface, [slopes]).await
+                };
+                desk.ask(slab.surface, [[at(0), at(1), at(2)]]).await
             }
         };
         if self.negative(slab.surface) { -form } else { form }
@@ -223,17 +226,17 @@ impl<'a> Cell<'a> {
             (lo + hi).mul_f64(0.5) + Affine::symbol(0).mul_f64(reach)
         };
         let direction = &self.fan.direction;
-        let points: [Jet<Affine<3>>; 3] =
-            std::array::from_fn(|k| Jet::line((t * direction[k]).add_interval(self.fan.apex[k]), direction[k]));
+        let at = |k: usize| Jet::line((t * direction[k]).add_interval(self.fan.apex[k]), direction[k]);
+        let points: [Jet<Affine<3>>; 3] = [at(0), at(1), at(2)];
         let [jet] = match kind {
             Kind::Plain => desk.ask(slab.surface, [points]).await,
             Kind::Slope => {
-                let slopes = std::array::from_fn(|k| SlopeOf {
+                let at = |k: usize| SlopeOf {
                     apex: self.fan.apex[k],
                     value: points[k],
                     slope: Jet::line(direction[k], Affine::ZERO),
-                });
-                desk.ask(slab.surface, [slopes]).await
+                };
+                desk.ask(slab.surface, [[at(0), at(1), at(2)]]).await
             }
         };
         if self.negative(slab.surface) { -jet } else { jet }

@@ -2,7 +2,7 @@
 //!
 //! The formulas of the scalar operators, as in the parent module. Why they enclose is said in `quadratic::arith`, `affine::jet` and
 //! `affine::slope`.
-use super::{AffineOf, IntervalOf, Kernel};
+use super::{AffineOf, Kernel};
 use crate::affine::{LARGE, TINY, U};
 use crate::lanes::block::vector::{Eight, Vector};
 use crate::quadratic::arith::{PAIRS, PRODUCT};
@@ -33,7 +33,7 @@ pub trait Enclosures<V: Vector>: Copy {
 
 /// No lane.
 #[inline(always)]
-fn never<V: Vector>() -> V::Mask {
+pub(super) fn never<V: Vector>() -> V::Mask {
     V::splat(1.0).le(V::splat(0.0))
 }
 
@@ -379,84 +379,6 @@ macro_rules! kernel_of_enclosures {
 }
 kernel_of_enclosures!([V: Vector] QuadraticOf<V>);
 kernel_of_enclosures!([V: Vector, const N: usize] JetOf<V, N>);
-
-/// Eight slopes from apexes in intervals.
-#[derive(Clone, Copy)]
-pub struct SlopeLanes<V, F> {
-    apex: IntervalOf<V>,
-    value: F,
-    slope: F,
-}
-
-impl<V: Vector> IntervalOf<V> {
-    /// Of every number in it: what `affine::centre_radius` says.
-    #[inline(always)]
-    fn centre_radius(self) -> (V, V) {
-        let half = V::splat(0.5);
-        let m = half.mul(self.lo).add(half.mul(self.hi));
-        let d = m.sub(self.lo).greater(self.hi.sub(m));
-        (m, d.add(d.mul(V::splat(f64::EPSILON))))
-    }
-}
-
-/// The apex decides which lanes are proper.
-impl<V: Vector, F: Enclosures<V>> Kernel<V> for SlopeLanes<V, F> {
-    #[inline(always)]
-    fn load(from: &[Eight]) -> Self {
-        let to = 2 + F::VECTORS;
-        Self {
-            apex: Kernel::<V>::load(&from[..2]),
-            value: F::from_memory(&from[2..to]),
-            slope: F::from_memory(&from[to..]),
-        }
-    }
-    #[inline(always)]
-    fn store(self, to: &mut [Eight]) {
-        let end = 2 + F::VECTORS;
-        self.apex.store(&mut to[..2]);
-        self.value.to_memory(&mut to[2..end]);
-        self.slope.to_memory(&mut to[end..]);
-    }
-    #[inline(always)]
-    fn neg(self) -> (Self, V::Mask) {
-        let (apex, proper) = self.apex.neg();
-        (Self { apex, value: self.value.negated(), slope: self.slope.negated() }, proper)
-    }
-    #[inline(always)]
-    fn add(self, o: Self) -> (Self, V::Mask) {
-        let (apex, proper) = self.apex.add(o.apex);
-        (Self { apex, value: self.value.added(o.value), slope: self.slope.added(o.slope) }, proper)
-    }
-    #[inline(always)]
-    fn sub(self, o: Self) -> (Self, V::Mask) {
-        let (apex, proper) = self.apex.sub(o.apex);
-        (Self { apex, value: self.value.subtracted(o.value), slope: self.slope.subtracted(o.slope) }, proper)
-    }
-    #[inline(always)]
-    fn mul(self, o: Self) -> (Self, V::Mask) {
-        let (apex, proper) = self.apex.mul(o.apex);
-        let (m, r) = self.apex.centre_radius();
-        let slope = self.slope.multiplied(o.value).added(o.slope.times_centre_radius(m, r));
-        (Self { apex, value: self.value.multiplied(o.value), slope }, proper)
-    }
-    #[inline(always)]
-    fn sqr(self) -> (Self, V::Mask) {
-        let (apex, proper) = self.apex.sqr();
-        let (m, r) = self.apex.centre_radius();
-        let slope = self.slope.multiplied(self.value.plus_centre_radius(m, r));
-        (Self { apex, value: self.value.squared(), slope }, proper)
-    }
-    #[inline(always)]
-    fn power(self, _: u32) -> (Self, V::Mask) {
-        (self, never::<V>())
-    }
-    #[inline(always)]
-    fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask) {
-        let (product, proper) = t.mul(d);
-        let (sum, sums) = product.add(p);
-        (sum, V::both(proper, sums))
-    }
-}
 
 /// Eight plain jets.
 #[derive(Clone, Copy)]
