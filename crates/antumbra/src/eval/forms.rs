@@ -67,9 +67,7 @@ impl Runs<'_> {
             }
             self.occupancy.count(lanes);
             block.prepare(3 + tape.slots(), lanes);
-            for axis in 0..3 {
-                block.load(axis, lanes, |lane| points[lane][axis]);
-            }
+            (0..3).for_each(|axis| block.load(axis, lanes, |lane| points[lane][axis]));
             let value = run_clauses(tape, block, lanes, self.level, self.places, 0, 3);
             out.iter_mut().enumerate().for_each(|(lane, out)| *out = wanted(block.get(value, lane)));
         }

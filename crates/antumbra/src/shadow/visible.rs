@@ -72,7 +72,7 @@ pub struct Tolerance {
 pub struct Scratch {
     pub(super) shaft: super::shaft::Scratch,
     /// Of searches that are done, for others.
-    idle: Vec<Box<Search>>,
+    idle: Vec<Search>,
     learned: second::Learned,
     claims: Option<Vec<second::Claim>>,
 }
@@ -183,11 +183,11 @@ struct Found {
     cost: Cost,
     /// Whether the second-order method settled it; `None` if that was not tried.
     settled: Option<bool>,
-    own: Box<Search>,
+    own: Search,
 }
 
 /// One hit; `worth`: whether the second-order method is.
-async fn search(desk: &Desk<'_>, hit: &Asking<'_>, worth: bool, tolerance: Tolerance, mut own: Box<Search>) -> Found {
+async fn search(desk: &Desk<'_>, hit: &Asking<'_>, worth: bool, tolerance: Tolerance, mut own: Search) -> Found {
     let (mut cost, mut settled) = (Cost::default(), None);
     let bracket = bracket(desk, hit, worth, tolerance, &mut own, &mut settled, &mut cost).await;
     Found { bracket, cost, settled, own }

@@ -84,7 +84,7 @@ fn forms_agree(
         let q = [some(), some(), 0.0, some(), 0.0, some()];
         let curved = Quadratic::polynomial(linear.centre(), *linear.coefficients(), q, error);
         let direction = Affine::linear(some(), [0.0, some(), some()], error);
-        let apex = if kind % 3 == 0 { interval(r) } else { Interval::point(r.f64() - 0.5) };
+        let apex = if kind.is_multiple_of(3) { interval(r) } else { Interval::point(r.f64() - 0.5) };
         (linear, curved, direction, apex)
     };
     let lines: Vec<_> = (0..count).map(|k| [line(k), line(k + 1), line(k)]).collect();

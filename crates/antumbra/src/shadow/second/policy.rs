@@ -35,9 +35,8 @@ const FAIR: f64 = 4000.0;
 
 /// Most hits that are looked at together: enough to fill lanes with each kind of question, few enough to stay in a cache.
 const COMPANY: usize = 32;
-/// How many of them begin, and how many join when one is done.
-const FIRST: usize = 8;
-const JOIN: usize = 2;
+/// How many join when the method has settled one.
+const JOIN: usize = 4;
 
 /// Sizes of a cell, in plain numbers.
 pub(super) struct Shape {
@@ -321,7 +320,7 @@ impl Trust {
 #[derive(Clone, Copy, Debug, Default)]
 pub(in crate::shadow) struct Learned {
     trust: Trust,
-    /// Hits that are done.
+    /// Hits that the method has settled.
     hits: usize,
     /// Plain intervals for long and for short slabs.
     pub(super) trials: [Trial; 2],
@@ -339,15 +338,15 @@ impl Learned {
         }
     }
 
-    /// How many hits are to be looked at together: few at first, who teach the others; alone where the method fails.
+    /// How many hits are to be looked at together: the first one is alone, and so is each one where the method fails.
     pub(in crate::shadow) fn company(&self) -> usize {
-        if self.trust.failures > 0 { 1 } else { (FIRST + JOIN * self.hits).min(COMPANY) }
+        if self.trust.failures > 0 { 1 } else { (1 + JOIN * self.hits).min(COMPANY) }
     }
 
     /// A hit is done; whether the method settled it, if it was tried.
     pub(in crate::shadow) fn done(&mut self, settled: Option<bool>) {
-        self.hits += 1;
         if let Some(settled) = settled {
+            self.hits += usize::from(settled);
             self.trust.tell(settled);
         }
     }
