@@ -167,16 +167,6 @@ impl Interval {
         };
         Self { lo, hi }
     }
-    /// `a k` for the finite number `k`: the bits of the product with the interval of that one number. NaN gives nothing sensible.
-    #[inline]
-    #[must_use]
-    pub fn mul_f64(self, k: f64) -> Self {
-        if self.is_empty() {
-            return Self::EMPTY;
-        }
-        let (first, last) = if k >= 0.0 { (self.lo, self.hi) } else { (self.hi, self.lo) };
-        Self { lo: mul_down(first, k), hi: mul_up(last, k) }
-    }
     /// `a^2`, tighter than `a * a`; never below 0.
     #[inline]
     #[must_use]

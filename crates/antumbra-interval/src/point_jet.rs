@@ -55,6 +55,31 @@ impl PointJet {
         self * self
     }
 
+    /// Square root.
+    #[must_use]
+    pub fn sqrt(self) -> Self {
+        let h = self.value.sqrt();
+        self.chain(h, 0.5 / h, -0.25 / (h * self.value))
+    }
+
+    /// `|f|`.
+    #[must_use]
+    pub fn abs(self) -> Self {
+        if self.value < 0.0 { -self } else { self }
+    }
+
+    /// The smaller one.
+    #[must_use]
+    pub fn min(self, o: Self) -> Self {
+        if self.value <= o.value { self } else { o }
+    }
+
+    /// The larger one.
+    #[must_use]
+    pub fn max(self, o: Self) -> Self {
+        if self.value >= o.value { self } else { o }
+    }
+
     /// `f k`.
     #[must_use]
     #[inline(always)]

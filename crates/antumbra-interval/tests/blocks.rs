@@ -3,7 +3,7 @@ mod nasty;
 
 use antumbra_interval::affine::{Affine, Dual, Jet, SlopeOf};
 use antumbra_interval::lanes::Level;
-use antumbra_interval::lanes::block::{Block, MOST, Packed, Ring};
+use antumbra_interval::lanes::block::{Arithmetic, Block, MOST, Packed};
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Interval, PointJet};
 use nasty::Generator;
@@ -24,6 +24,15 @@ fn affine<const N: usize>(g: &mut Generator) -> Affine<N> {
             Affine::linear(number(g), std::array::from_fn(|_| if g.below(4) == 0 { 0.0 } else { number(g) }), e)
         }
     }
+}
+
+/// Such as renderers meet: narrow and wide beside the distance from 0, which lies in few of them.
+fn ordinary<const N: usize>(g: &mut Generator) -> Affine<N> {
+    let c = if g.below(2) == 0 { g.unit() + 0.01 } else { -50.0 * g.unit() };
+    let width = c * [1e-17, 1e-15, 1e-9, 1e-3, 0.1, 0.5, 0.9, 0.999, 1.001, 3.0, 1e6][g.below(11) as usize];
+    let (share, rest) = (g.unit(), [0.0, 1e-18, 1e-3][g.below(3) as usize]);
+    let a = std::array::from_fn(|i| if i == 0 { width * share } else { width * (1.0 - share) / N as f64 });
+    Affine::linear(c, a, width.abs() * rest)
 }
 
 fn dual<const N: usize>(g: &mut Generator) -> Dual<N> {
@@ -72,7 +81,7 @@ fn agree<F: Packed + std::fmt::Debug>(any: impl Fn(&mut Generator) -> F, seed: u
         for round in 0..rounds {
             let lanes = round % MOST + 1;
             let operands: [Vec<F>; 3] = std::array::from_fn(|_| (0..lanes).map(|_| any(&mut g)).collect());
-            for op in 0..=Ring::ALL.len() + 8 {
+            for op in 0..=Arithmetic::ALL.len() + 8 {
                 // Results in a slot of their own, or in that of an operand.
                 let out = [3, 0, 1][round % 3];
                 block.prepare(4, lanes);
@@ -80,17 +89,17 @@ fn agree<F: Packed + std::fmt::Debug>(any: impl Fn(&mut Generator) -> F, seed: u
                     operand.iter().enumerate().for_each(|(lane, x)| block.set(slot, lane, *x));
                     block.pad(slot, lanes);
                 }
-                let ring = Ring::ALL.get(op).copied();
-                let n = op as i32 - Ring::ALL.len() as i32;
+                let ring = Arithmetic::ALL.get(op).copied();
+                let n = op as i32 - Arithmetic::ALL.len() as i32;
                 match ring {
-                    Some(ring) => block.ring(level, ring, out, 0, 1),
+                    Some(ring) => block.arithmetic(level, ring, out, 0, 1),
                     None if n == 0 => block.coordinate(level, out, 0, 1, 2),
                     None => block.power(level, lanes, n, out, 0),
                 }
                 for (lane, ((a, b), c)) in operands[0].iter().zip(&operands[1]).zip(&operands[2]).enumerate() {
                     let (a, b, c) = (*a, *b, *c);
                     let wanted = match ring {
-                        Some(ring) => F::ring(ring, a, b),
+                        Some(ring) => F::arithmetic(ring, a, b),
                         None if n == 0 => F::coordinate(a, b, c),
                         None => a.power(n),
                     };
@@ -127,12 +136,15 @@ fn affine_forms() {
     agree(affine::<1>, 3, 500);
     agree(affine::<3>, 4, 500);
     agree(affine::<5>, 5, 500);
+    agree(ordinary::<1>, 8, 500);
+    agree(ordinary::<3>, 9, 1000);
 }
 
 #[test]
 fn values_with_derivatives() {
     agree(dual::<1>, 6, 500);
     agree(dual::<3>, 7, 500);
+    agree(|g| Dual { value: ordinary::<1>(g), derivative: ordinary(g) }, 10, 500);
 }
 
 #[test]

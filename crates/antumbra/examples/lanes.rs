@@ -6,7 +6,7 @@
 use antumbra::eval::{FanPiece, Gradient, Inclusion, RayPiece, Workspace};
 use antumbra::expr::Formula;
 use antumbra::geom::{Box3, Film};
-use antumbra::scene::{PRESETS, preset};
+use antumbra::scene::{PRESETS, Scene, preset};
 use antumbra::tape::Tape;
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Dual};
@@ -27,8 +27,18 @@ struct Questions {
     regions: Vec<Box3>,
 }
 
-fn questions(name: &str) -> Questions {
-    let scene = preset(name).expect("a preset").expect("a preset");
+/// A field of sources along a spiral.
+fn sources(n: usize) -> String {
+    let source = |k: usize| {
+        let (turn, height) = (2.4 * k as f64, (2 * k + 1) as f64 / n as f64 - 1.0);
+        let radius = (1.0 - height * height).sqrt();
+        let [x, y, z] = [radius * core_math::cos(turn), radius * core_math::sin(turn), height];
+        format!("0.1/((x - ({x:.3}))^2 + (y - ({y:.3}))^2 + (z - ({z:.3}))^2 + 0.01)")
+    };
+    format!("1 - ({}) = 0", (0..n).map(source).collect::<Vec<_>>().join(" + "))
+}
+
+fn questions(scene: &Scene) -> Questions {
     let film = Film { camera: scene.view.camera(1.0), width: 512, height: 512 };
     let distance = (scene.view.target - film.camera.eye).length();
     let pixel = |k: usize| (200 + k % 64, 200 + k / 64);
@@ -73,10 +83,14 @@ fn main() {
     print!("\n|---|");
     work.iter().for_each(|(_, _, widths)| widths.iter().for_each(|_| print!("---|")));
     println!();
-    for preset in &PRESETS[..4] {
-        let formula = Formula::parse(preset.formula).expect("a preset");
-        let tape = Tape::compile(formula.surface().formula()).expect("a preset");
-        let q = questions(preset.name);
+    let field = Scene::from_formula(&sources(8)).expect("a field");
+    let scenes = PRESETS[..4]
+        .iter()
+        .map(|p| (p.name, p.formula.to_owned(), preset(p.name).expect("a preset").expect("a preset")));
+    for (surface, text, scene) in scenes.chain([("field of 8 sources", sources(8), field)]) {
+        let formula = Formula::parse(&text).expect("a formula");
+        let tape = Tape::compile(formula.surface().formula()).expect("a formula");
+        let q = questions(&scene);
         for (form, name) in
             ["interval", "affine (t, i, j)", "affine value and derivative", "gradient"].iter().enumerate()
         {
@@ -93,7 +107,7 @@ fn main() {
                     }
                 }
             }
-            print!("| {} {name} |", preset.name);
+            print!("| {surface} {name} |");
             for mut times in times {
                 times.sort_by(f64::total_cmp);
                 print!(" {:.1} |", times[RUNS / 2]);

@@ -77,6 +77,30 @@ fn rays_along_the_axes_are_not_lost() {
     }
 }
 
+/// Where f passes through 0 with its derivatives, it has opposite signs all the same.
+#[test]
+fn triple_roots_are_proved() {
+    let clip = Clip::Box(Box3::cube(1.5));
+    let object = Object::parse("(x - 1/3) (x - 1/3)^2 (2 + sin(x))", clip).unwrap();
+    let surfaces = [Surface { function: object.surface.as_ref(), clip, region: object.region() }];
+    let ray = Beam { origin: Vec3::new(-3.0, 0.1, 0.0), direction: Vec3::new(1.0, 0.0, 0.0).to_box() };
+    let open = [Piece { surface: 0, t: Interval::new(0.0, 10.0) }];
+    let (mut work, mut cost) = (Workspace::default(), Cost::default());
+    let found =
+        first_meeting(&surfaces, &ray, &open, Effort::FINE, &mut Scratch::default(), &mut work, &mut cost).unwrap();
+    assert!(found.reason.is_none() && found.t.contains(3.0 + 1.0 / 3.0) && found.t.width() < 1e-3, "{found:?}");
+}
+
+/// An eye on a surface sees it at distance 0, which nothing resolves: that is not tried for ever.
+#[test]
+fn an_eye_on_a_surface_is_no_endless_work() {
+    for (text, clip) in [("x^2 + y^2 + z^2 - 1", 2.0), ("x + y^2 - 1", 2.0), ("x - 1", 1.0)] {
+        let scene = scene_of(&[text], Box3::cube(clip), Vec3::new(1.0, 0.0, 0.0));
+        let (_, stats) = drawn(scene, 32, false);
+        assert!(stats.primary_evaluations < 60_000, "{text}: {} evaluations", stats.primary_evaluations);
+    }
+}
+
 /// The first surface is known so vaguely that the second lies inside its enclosure, and in front: neither is proved first.
 #[test]
 fn the_order_of_overlapping_surfaces_is_not_proved() {

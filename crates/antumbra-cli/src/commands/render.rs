@@ -153,6 +153,10 @@ fn summary(options: &RenderOptions, stats: &Stats) -> String {
     let per_light = if stats.lights > 1 { format!(" (of {} lights)", stats.lights) } else { String::new() };
     let open = match stats.brackets_open {
         0 => String::new(),
+        1 => format!(
+            "\n1 bracket is wider than the tolerance ({:.3}): allow more work with --rectangles",
+            stats.bracket_width_max
+        ),
         n => format!(
             "\n{} brackets are wider than the tolerance (up to {:.3}): allow more work with --rectangles",
             HumanCount(n),

@@ -57,7 +57,7 @@ impl<const N: usize> Affine<N> {
     /// Rounding steps of [`Affine::max`] and [`Affine::between`], times `u size`, `size = sum of all magnitudes`: `d`, `D`
     /// `N + 2`; `H` 3 more; `L` 3; `M` 3; centre and error 2 each. `H` and `L` enter centre and error by halves:
     /// `(N + 8) + 3 + 4`; the comparisons against 0 have `N + 4`.
-    const CHOICE: f64 = (2 * N + 24) as f64 * U;
+    pub(crate) const CHOICE: f64 = (2 * N + 24) as f64 * U;
 
     /// The smaller of `x` and `y`: `-max(-x, -y)`.
     #[must_use]

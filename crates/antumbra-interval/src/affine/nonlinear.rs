@@ -7,6 +7,7 @@ use super::{
     point::{around, bounds, exact, non_negative, recip_non_negative},
 };
 use crate::Interval;
+use crate::round::about_root;
 use std::ops::Div;
 
 /// Enclosure of pi/2: the constant is the float below.
@@ -88,8 +89,12 @@ impl Curve for IntegerPower {
     }
     /// `n x^(n-1) = alpha` at `(alpha/n)^(1/(n-1))`; an even `n - 1` has also the negative root.
     fn touch(&self, alpha: f64, _: f64, hi: f64) -> f64 {
-        let (q, n) = (alpha / f64::from(self.0), f64::from(self.0) - 1.0);
-        let r = core_math::pow(q.abs(), 1.0 / n);
+        let q = alpha / f64::from(self.0);
+        let r = match self.0 {
+            3..=8 if q == 0.0 => 0.0,
+            n @ 3..=8 => about_root(q.abs(), n as u32 - 1),
+            n => core_math::pow(q.abs(), 1.0 / (f64::from(n) - 1.0)),
+        };
         if self.0 % 2 == 0 && self.0 > 0 { r.copysign(q) } else { signed(r, hi) }
     }
 }

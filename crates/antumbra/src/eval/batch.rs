@@ -9,7 +9,7 @@ use crate::tape::{Op, Tape};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Dual};
 use antumbra_interval::lanes::Level;
-use antumbra_interval::lanes::block::{Block, MOST, Packed, Ring, WIDTH};
+use antumbra_interval::lanes::block::{Arithmetic, Block, MOST, Packed, WIDTH};
 
 /// Parameters `t` of a thin beam.
 #[derive(Clone, Copy, Debug)]
@@ -111,6 +111,29 @@ impl Scratch {
     }
 }
 
+/// The operation that blocks have in vectors.
+pub(super) fn in_vectors(op: Op) -> Option<Arithmetic> {
+    match op {
+        Op::Unary(op) => match op {
+            Unary::Neg => Some(Arithmetic::Neg),
+            Unary::Sqr => Some(Arithmetic::Sqr),
+            Unary::Sqrt => Some(Arithmetic::Sqrt),
+            Unary::Abs => Some(Arithmetic::Abs),
+            _ => None,
+        },
+        Op::Binary(op) => match op {
+            Binary::Add => Some(Arithmetic::Add),
+            Binary::Sub => Some(Arithmetic::Sub),
+            Binary::Mul => Some(Arithmetic::Mul),
+            Binary::Div => Some(Arithmetic::Div),
+            Binary::Min => Some(Arithmetic::Min),
+            Binary::Max => Some(Arithmetic::Max),
+            _ => None,
+        },
+        _ => None,
+    }
+}
+
 /// Runs a tape on a block whose slots 0 to 6 hold parameter, directions and starting points; tells where the value is.
 fn run_block<F: Number + Packed>(
     tape: &Tape,
@@ -122,7 +145,7 @@ fn run_block<F: Number + Packed>(
     for axis in 0..3 {
         block.coordinate(level, 1 + axis, 0, 1 + axis, 4 + axis);
     }
-    run_clauses(tape, block, lanes, level, places, 1, OWN)
+    run_clauses(tape, block, lanes, level, places, (1, OWN), in_vectors)
 }
 
 /// Runs a tape on a block that holds the coordinates in slots from `axes` on; slots from `own` on are those of the tape. Tells where the
@@ -133,8 +156,8 @@ pub(super) fn run_clauses<F: Number + Packed>(
     lanes: usize,
     level: Level,
     places: &mut Vec<usize>,
-    axes: usize,
-    own: usize,
+    (axes, own): (usize, usize),
+    in_vectors: impl Fn(Op) -> Option<Arithmetic>,
 ) -> usize {
     places.clear();
     places.resize(tape.slots(), 0);
@@ -143,18 +166,14 @@ pub(super) fn run_clauses<F: Number + Packed>(
         let (a, b) = (places[clause.a as usize], places[clause.b as usize]);
         let out = own + clause.out as usize;
         last = out;
-        match clause.op {
-            Op::Constant(index) => block.fill(out, F::constant(tape.constants()[index as usize])),
+        match (clause.op, in_vectors(clause.op)) {
+            (_, Some(op)) => block.arithmetic(level, op, out, a, b),
+            (Op::Constant(index), _) => block.fill(out, F::constant(tape.constants()[index as usize])),
             // Nothing writes the slots of the axes: they need no copy.
-            Op::Axis(axis) => last = axes + axis as usize,
-            Op::Unary(Unary::Neg) => block.ring(level, Ring::Neg, out, a, a),
-            Op::Unary(Unary::Sqr) => block.ring(level, Ring::Sqr, out, a, a),
-            Op::Binary(Binary::Add) => block.ring(level, Ring::Add, out, a, b),
-            Op::Binary(Binary::Sub) => block.ring(level, Ring::Sub, out, a, b),
-            Op::Binary(Binary::Mul) => block.ring(level, Ring::Mul, out, a, b),
-            Op::Unary(op) => block.map(lanes, out, a, |x| x.unary(op)),
-            Op::Powi(n) => block.power(level, lanes, n, out, a),
-            Op::Binary(op) => block.map2(lanes, out, a, b, |x, y| x.binary(op, y)),
+            (Op::Axis(axis), _) => last = axes + axis as usize,
+            (Op::Unary(op), _) => block.map(lanes, out, a, |x| x.unary(op)),
+            (Op::Powi(n), _) => block.power(level, lanes, n, out, a),
+            (Op::Binary(op), _) => block.map2(lanes, out, a, b, |x, y| x.binary(op, y)),
         }
         places[clause.out as usize] = last;
     }
@@ -305,11 +324,18 @@ impl Gradients<'_> {
                     (1..PARTS).for_each(|k| self.block.fill(out + k, Interval::ZERO));
                 }
                 Op::Axis(axis) => last = PARTS * axis as usize,
-                Op::Unary(Unary::Neg) => (0..PARTS).for_each(|k| self.ring(Ring::Neg, out + k, a + k, a + k)),
+                Op::Unary(Unary::Neg) => {
+                    (0..PARTS).for_each(|k| self.arithmetic(Arithmetic::Neg, out + k, a + k, a + k))
+                }
                 Op::Unary(Unary::Sqr) => self.sqr(out, a),
-                Op::Binary(Binary::Add) => (0..PARTS).for_each(|k| self.ring(Ring::Add, out + k, a + k, b + k)),
-                Op::Binary(Binary::Sub) => (0..PARTS).for_each(|k| self.ring(Ring::Sub, out + k, a + k, b + k)),
+                Op::Binary(Binary::Add) => {
+                    (0..PARTS).for_each(|k| self.arithmetic(Arithmetic::Add, out + k, a + k, b + k))
+                }
+                Op::Binary(Binary::Sub) => {
+                    (0..PARTS).for_each(|k| self.arithmetic(Arithmetic::Sub, out + k, a + k, b + k))
+                }
                 Op::Binary(Binary::Mul) => self.mul(out, a, b),
+                Op::Binary(Binary::Div) => self.div(out, a, b),
                 Op::Unary(op) => self.map(out, a, a, |x, _| x.unary(op)),
                 Op::Powi(n @ 3..=8) => self.power(n, out, a),
                 Op::Powi(n) => self.map(out, a, a, |x, _| x.powi(n)),
@@ -320,19 +346,31 @@ impl Gradients<'_> {
         last
     }
 
-    fn ring(&mut self, op: Ring, out: usize, a: usize, b: usize) {
-        self.block.ring(self.level, op, out, a, b);
+    fn arithmetic(&mut self, op: Arithmetic, out: usize, a: usize, b: usize) {
+        self.block.arithmetic(self.level, op, out, a, b);
     }
 
     /// `(a b)' = a b' + a' b`; the value last, as the slots may be the same.
     fn mul(&mut self, out: usize, a: usize, b: usize) {
         let [left, right] = [3 * PARTS, 3 * PARTS + 1];
         for k in 1..PARTS {
-            self.ring(Ring::Mul, left, a, b + k);
-            self.ring(Ring::Mul, right, a + k, b);
-            self.ring(Ring::Add, out + k, left, right);
+            self.arithmetic(Arithmetic::Mul, left, a, b + k);
+            self.arithmetic(Arithmetic::Mul, right, a + k, b);
+            self.arithmetic(Arithmetic::Add, out + k, left, right);
         }
-        self.ring(Ring::Mul, out, a, b);
+        self.arithmetic(Arithmetic::Mul, out, a, b);
+    }
+
+    /// `(a / b)' = (a' - (a/b) b') / b`. It is empty only where the quotient is: nowhere has the scalar operator to mend it.
+    fn div(&mut self, out: usize, a: usize, b: usize) {
+        let [quotient, above] = [3 * PARTS, 3 * PARTS + 1];
+        self.arithmetic(Arithmetic::Div, quotient, a, b);
+        for k in 1..PARTS {
+            self.arithmetic(Arithmetic::Mul, above, quotient, b + k);
+            self.arithmetic(Arithmetic::Sub, above, a + k, above);
+            self.arithmetic(Arithmetic::Div, out + k, above, b);
+        }
+        self.arithmetic(Arithmetic::Div, out, a, b);
     }
 
     /// `(a^n)' = n a^(n-1) a'`, `3 <= n <= 8`.
@@ -340,20 +378,20 @@ impl Gradients<'_> {
         let [slope, factor, lower] = [3 * PARTS, 3 * PARTS + 1, 3 * PARTS + 2];
         self.block.fill(factor, Interval::point(f64::from(n)));
         match n - 1 {
-            2 => self.ring(Ring::Sqr, lower, a, a),
+            2 => self.arithmetic(Arithmetic::Sqr, lower, a, a),
             m => self.block.power(self.level, self.lanes, m, lower, a),
         }
-        self.ring(Ring::Mul, slope, factor, lower);
-        (1..PARTS).for_each(|k| self.ring(Ring::Mul, out + k, slope, a + k));
+        self.arithmetic(Arithmetic::Mul, slope, factor, lower);
+        (1..PARTS).for_each(|k| self.arithmetic(Arithmetic::Mul, out + k, slope, a + k));
         self.block.power(self.level, self.lanes, n, out, a);
     }
 
     /// `(a^2)' = 2 a a'`.
     fn sqr(&mut self, out: usize, a: usize) {
         let twice = 3 * PARTS;
-        self.ring(Ring::Add, twice, a, a);
-        (1..PARTS).for_each(|k| self.ring(Ring::Mul, out + k, twice, a + k));
-        self.ring(Ring::Sqr, out, a, a);
+        self.arithmetic(Arithmetic::Add, twice, a, a);
+        (1..PARTS).for_each(|k| self.arithmetic(Arithmetic::Mul, out + k, twice, a + k));
+        self.arithmetic(Arithmetic::Sqr, out, a, a);
     }
 
     fn map(&mut self, out: usize, a: usize, b: usize, f: impl Fn(Gradient, Gradient) -> Gradient) {

@@ -2,11 +2,11 @@
 //!
 //! As [`batch`](super::batch): every lane has the bits of the one interpreter on single numbers.
 use super::Number;
-use super::batch::{FEWEST, Occupancy, Unasked, run_clauses};
-use crate::tape::Tape;
+use super::batch::{FEWEST, Occupancy, Unasked, in_vectors, run_clauses};
+use crate::tape::{Op, Tape};
 use antumbra_interval::affine::{Affine, Jet, SlopeOf};
 use antumbra_interval::lanes::Level;
-use antumbra_interval::lanes::block::{Block, MOST, Packed};
+use antumbra_interval::lanes::block::{Arithmetic, Block, MOST, Packed};
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Interval, PointJet};
 
@@ -68,9 +68,15 @@ impl Runs<'_> {
             self.occupancy.count(lanes);
             block.prepare(3 + tape.slots(), lanes);
             (0..3).for_each(|axis| block.load(axis, lanes, |lane| points[lane][axis]));
-            let value = run_clauses(tape, block, lanes, self.level, self.places, 0, 3);
+            let value = run_clauses(tape, block, lanes, self.level, self.places, (0, 3), sums_and_products);
             out.iter_mut().enumerate().for_each(|(lane, out)| *out = wanted(block.get(value, lane)));
         }
         Unasked(0)
     }
+}
+
+/// What these kinds have in vectors; the rest is done lane by lane.
+fn sums_and_products(op: Op) -> Option<Arithmetic> {
+    use Arithmetic::{Add, Mul, Neg, Sqr, Sub};
+    in_vectors(op).filter(|op| matches!(op, Neg | Add | Sub | Mul | Sqr))
 }

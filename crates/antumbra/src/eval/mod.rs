@@ -21,6 +21,7 @@ mod jet;
 mod machine;
 mod point;
 mod regions;
+mod sieve;
 pub mod wgsl;
 
 pub use antumbra_interval::PointJet;
@@ -33,3 +34,4 @@ pub use inclusion::{
 pub use machine::{Number, run};
 pub use point::value_at;
 pub use regions::{RegionCount, Regions};
+pub use sieve::Sieve;

@@ -77,7 +77,7 @@ impl Film {
     /// Enclosure of the directions of all rays with film coordinates in `x` and `y`.
     fn directions(&self, x: Interval, y: Interval) -> Box3 {
         let c = &self.camera;
-        Box3(axes(|i| Interval::point(c.forward[i]) + (x.mul_f64(c.right[i]) + y.mul_f64(c.up[i]))))
+        Box3(axes(|i| Interval::point(c.forward[i]) + (x.mul_point(c.right[i]) + y.mul_point(c.up[i]))))
     }
 
     /// Film coordinates of the pixels `columns x rows` (half-open ranges), y upwards.

@@ -1,6 +1,6 @@
 //! Where is the surface, and from where does one look at it?
 use super::{Light, Object, Scene, View};
-use crate::eval::{Inclusion, Workspace, centred_range};
+use crate::eval::{Inclusion, Sieve, Workspace, centred_range};
 use crate::geom::{Box3, Clip, Rect, Vec3};
 use antumbra_interval::Interval;
 
@@ -65,7 +65,7 @@ pub fn extent(f: &dyn Inclusion) -> Extent {
         let Some(hull) = hull_of_zeros(f, region, &mut work) else { return Extent::Nowhere };
         let hull = hull.intersection(region).unwrap_or(region);
         if round == 0 && (0..3).any(|i| hull[i].lo() <= farthest[i].lo() || hull[i].hi() >= farthest[i].hi()) {
-            return Extent::Open(Box3::cube(OPEN_HALF));
+            return Extent::Open(part_to_look_at(f, &mut work));
         }
         let shrunk = (0..3).any(|i| hull[i].width() < 0.97 * region[i].width());
         region = hull;
@@ -74,6 +74,26 @@ pub fn extent(f: &dyn Inclusion) -> Extent {
         }
     }
     Extent::Bounded(region)
+}
+
+/// The part of an endless surface in the middle of space; further away, where it does not come near.
+fn part_to_look_at(f: &dyn Inclusion, work: &mut Workspace) -> Box3 {
+    let mut half = OPEN_HALF;
+    while half < FARTHEST {
+        let mut region = Box3::cube(half);
+        // A surface that is there has cells at every round.
+        for round in 0..4 {
+            match hull_of_zeros(f, region, work) {
+                None if round == 0 => break,
+                hull => region = hull.and_then(|h| h.intersection(region)).unwrap_or(region),
+            }
+            if round == 3 {
+                return region;
+            }
+        }
+        half *= 4.0;
+    }
+    Box3::cube(OPEN_HALF)
 }
 
 /// A region in which every zero of f is known to be inside `clip`: if f has none in a wide neighbourhood, the clip cuts
@@ -136,18 +156,13 @@ fn for_cells_with_zeros(
         lo + (hi - lo) * (Interval::point(k as f64) / Interval::point(CELLS as f64))
     };
     let slab = |axis: usize, k: usize| edge(axis, k).hull(edge(axis, k + 1));
-    for k in 0..CELLS {
-        for j in 0..CELLS {
-            for i in 0..CELLS {
-                let cell = Box3([slab(0, i), slab(1, j), slab(2, k)]);
-                if wanted(&cell)
-                    && f.range(&cell, work).possibly_zero()
-                    && centred_range(f, &cell, work).possibly_zero()
-                {
-                    found(cell);
-                }
-            }
-        }
+    let slabs: [[Interval; CELLS]; 3] = std::array::from_fn(|axis| std::array::from_fn(|k| slab(axis, k)));
+    let (mut cells, mut sieve) = (Vec::with_capacity(CELLS * CELLS), Sieve::default());
+    for z in slabs[2] {
+        cells.clear();
+        cells.extend(slabs[1].iter().flat_map(|y| slabs[0].map(|x| Box3([x, *y, z]))).filter(&wanted));
+        sieve.retain(f, &mut cells, work);
+        cells.iter().copied().for_each(&mut found);
     }
 }
 
@@ -282,5 +297,22 @@ mod tests {
         assert!(matches!(extent_of("z = 0"), Extent::Open(_)));
         assert!(matches!(extent_of("sin(x) + sin(y) + sin(z) = 0"), Extent::Open(_)));
         assert_eq!(extent_of("x^2 + y^2 + z^2 + 1 = 0"), Extent::Nowhere);
+    }
+
+    #[test]
+    fn of_endless_surfaces_there_is_shown_what_is_there() {
+        let part = |text: &str| {
+            let Extent::Open(b) = extent_of(text) else { panic!("{text} is endless") };
+            b.0.map(|side| (side.lo(), side.hi()))
+        };
+        // A paraboloid fills the upper half of a cube of half side 3, and reaches out to sqrt(3).
+        let [x, y, z] = part("z = x^2 + y^2");
+        for (lo, hi) in [x, y] {
+            assert!(lo < -1.73 && lo > -1.9 && hi > 1.73 && hi < 1.9, "{lo} {hi}");
+        }
+        assert!(z.0 <= 0.0 && z.0 > -0.2 && z.1 == 3.0, "{z:?}");
+        assert_eq!(part("sin(x) + sin(y) + sin(z) = 0"), [(-3.0, 3.0); 3]);
+        let [x, _, z] = part("z = 100 + x/10");
+        assert!(z.0 > 0.0 && z.1 < 150.0 && x.1 == 192.0, "{x:?} {z:?}");
     }
 }

@@ -111,8 +111,8 @@ impl Places {
         [f64::from(i) - self.center[0], f64::from(j) - self.center[1]]
     }
 
-    /// What slopes by pixels are by symbols that run over the places from -1 to 1. Exact: a slope has 24 bits, half a width fewer
-    /// than 28.
+    /// What slopes by pixels are by symbols that run over the places from -1 to 1. Exact: a slope has 24 bits, half a width at most
+    /// 28; over wider places all slopes are 0.
     pub(super) fn by_symbols(&self, [a, b]: [f64; 2]) -> [f64; 2] {
         [a * self.half[0], b * self.half[1]]
     }
@@ -131,7 +131,8 @@ impl Places {
         let (xx, xy, yy) = (sxx - sx * sx / n + 1e-9, sxy - sx * sy / n, syy - sy * sy / n + 1e-9);
         let det = xx * yy - xy * xy;
         let slopes = [(yy * zx - xy * zy) / det, (xx * zy - xy * zx) / det].map(|slope| slope as f32);
-        if slopes.iter().all(|s| s.is_finite()) { slopes.map(f64::from) } else { [0.0; 2] }
+        let exact = self.half.iter().all(|half| *half < f64::from(1 << 27));
+        if exact && slopes.iter().all(|s| s.is_finite()) { slopes.map(f64::from) } else { [0.0; 2] }
     }
 }
 

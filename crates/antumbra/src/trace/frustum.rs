@@ -180,7 +180,7 @@ impl Search {
             surface: 0,
             next: 0,
             passage,
-            reach: Reach::of(&passage),
+            reach: Reach::NONE,
             first_open: 0,
         }
     }
@@ -212,7 +212,8 @@ impl Search {
         } else {
             surfaces[first.surface].passage(&job.fan.apex, &self.directions)
         };
-        (self.reach, self.first_open) = (Reach::of(&self.passage), self.known.open.len());
+        self.reach = Reach::of(&surfaces[first.surface].clip.bounds(), job.fan.apex.mid());
+        self.first_open = self.known.open.len();
         self.stack.clear();
         self.stack.extend(pieces[..count].iter().rev().map(|p| Next::Look(p.t)));
         true

@@ -1,7 +1,7 @@
 //! Where to cut: choices that cost or save time and never touch a proof. The only file of this room with float
 //! arithmetic.
 #![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
-use crate::geom::{Fan, Passage};
+use crate::geom::{Box3, Fan, Vec3};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
 
@@ -24,14 +24,17 @@ const CUT: f64 = 0.497_31;
 /// Evaluations that one frustum may take; what is open then stays open. The gallery's need less than a tenth of it.
 pub(super) const FRUSTUM_EVALUATIONS: u64 = 2048;
 
-/// A length along the rays below which nothing is resolved, however near to the eye: a share of where the surface's
-/// region ends. (Relative lengths alone would cut for ever at t = 0, where the eye may be inside a surface.)
+/// A length along the rays below which nothing is resolved, however near to the eye: a share of how far the surface's
+/// region reaches. (Relative lengths alone would cut for ever at t = 0, where the eye may be inside a surface.)
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Reach(f64);
 
 impl Reach {
-    pub(super) fn of(passage: &Passage) -> Self {
-        let end = passage.outer.hi();
+    pub(super) const NONE: Self = Self(0.0);
+
+    pub(super) fn of(region: &Box3, eye: Vec3) -> Self {
+        let side = |k: usize| (region[k].lo() - eye[k]).abs().max((region[k].hi() - eye[k]).abs());
+        let end = (0..3).map(side).fold(0.0, f64::max);
         Self(if end.is_finite() { 1e-3 * end } else { 0.0 })
     }
 }

@@ -54,24 +54,34 @@ const STEPS: u32 = 40;
 enum Step {
     /// Value and derivative on a piece.
     Look(Interval),
-    /// The signs at both ends of a piece on which f is monotone; and where in it the root is, if there is one, with the
-    /// derivative.
-    Ends(Interval, Interval, Interval),
+    /// The signs at those ends of a piece of which they are not known, f being monotone on it.
+    Ends(Ends),
     /// Value and derivative on an interval that holds the first root.
     Narrow(Root),
-    /// The value in its middle: for interval Newton, with the derivative there.
-    Middle(Root, Interval),
+    /// The value in its middle: for interval Newton.
+    Middle(Root),
     /// Nothing more.
     Done,
 }
 
-/// An interval that holds the first root: before it, f is not 0, and has one sign at its lower end; it has the other sign at the
-/// upper one, and is continuous in between.
+/// A piece on which f is monotone, its derivative, where in it a root may be, and the signs of f at its ends where known.
+#[derive(Clone, Copy, Debug)]
+struct Ends {
+    t: Interval,
+    derivative: Interval,
+    found: Option<Contracted>,
+    signs: [Option<Sign>; 2],
+}
+
+/// An interval that holds the first root: f has one sign before it, is not 0 from the beginning of the search up to its lower end,
+/// has the other sign behind it, and is continuous in between.
 #[derive(Clone, Copy, Debug)]
 struct Root {
     t: Interval,
     /// The sign of f before the root.
     before: Sign,
+    /// Encloses f' on the interval, if f' has a sign there; else it says nothing.
+    derivative: Interval,
     steps: u32,
 }
 
@@ -111,7 +121,7 @@ impl Default for Search {
             surface: 0,
             next: 0,
             passage,
-            reach: Reach::of(&passage),
+            reach: Reach::NONE,
             begin: 0,
             before: None,
             stack: Vec::new(),
@@ -162,11 +172,10 @@ pub fn first_meetings(
                 let mut at = |t: f64| points.push(RayPiece { ray, t: Interval::point(t) });
                 match searches[k].step {
                     Step::Look(t) | Step::Narrow(Root { t, .. }) => pieces.push(RayPiece { ray, t }),
-                    Step::Ends(t, ..) => {
-                        at(t.lo());
-                        at(t.hi());
+                    Step::Ends(Ends { t, signs, .. }) => {
+                        [t.lo(), t.hi()].into_iter().zip(signs).filter(|(_, s)| s.is_none()).for_each(|(t, _)| at(t));
                     }
-                    Step::Middle(root, _) => at(root.t.mid()),
+                    Step::Middle(root) => at(root.t.mid()),
                     Step::Done => {}
                 }
             }
@@ -187,11 +196,11 @@ pub fn first_meetings(
                 match search.step {
                     Step::Look(t) => search.looked(&context, t, value(), work),
                     Step::Narrow(root) => search.narrowed(&context, root, value(), work),
-                    Step::Ends(t, open, derivative) => {
-                        let signs = [Sign::of(range()), Sign::of(range())];
-                        search.met(&context, t, open, derivative, signs, work);
+                    Step::Ends(mut ends) => {
+                        ends.signs = ends.signs.map(|sign| sign.or_else(|| Sign::of(range())));
+                        search.met(&context, ends, work);
                     }
-                    Step::Middle(root, derivative) => search.stepped(&context, root, derivative, range()),
+                    Step::Middle(root) => search.stepped(&context, root, range()),
                     Step::Done => {}
                 }
             }
@@ -259,7 +268,8 @@ impl Search {
         } else {
             c.surfaces[first.surface].passage(&c.ray.beam.origin.to_box(), &c.ray.beam.direction)
         };
-        (self.reach, self.begin, self.before) = (Reach::of(&self.passage), self.cost.evaluations, None);
+        self.reach = Reach::of(&c.surfaces[first.surface].clip.bounds(), c.ray.beam.origin);
+        (self.begin, self.before) = (self.cost.evaluations, None);
         self.stack.clear();
         self.stack.extend(pieces[..count].iter().rev().map(|p| Next::Look(p.t)));
         true
@@ -338,27 +348,27 @@ impl Search {
             self.before = Sign::of(value).or(self.before);
             return self.go_on(c);
         }
-        let derivative = dual.derivative.range();
+        let derivative = signed(dual.derivative.range());
         let found = contract(t, &dual.value);
-        let parts = found.map(|c| (c.head(t), c.tail(t)));
-        if let (Some(Contracted { open, before }), Some((Some(_), Some(_)))) = (found, parts)
-            && c.continuous(self.surface, t, work)
-        {
-            return self.enclose(c, Root { t: open, before, steps: 0 }, derivative, t);
+        let signs = [found.and_then(|c| c.head(t)), found.and_then(|c| c.tail(t))].map(|end| end.map(|(_, sign)| sign));
+        let monotone = !derivative.possibly_zero();
+        if (monotone || !signs.contains(&None)) && c.continuous(self.surface, t, work) {
+            let ends = Ends { t, derivative, found, signs };
+            return match signs.iter().filter(|sign| sign.is_none()).count() {
+                0 => self.met(c, ends, work),
+                questions => self.ask(questions as u64, Step::Ends(ends)),
+            };
         }
-        if !derivative.possibly_zero() && c.continuous(self.surface, t, work) {
-            let open = found.map_or(t, |c| c.open);
-            return self.ask(2, Step::Ends(t, open, derivative));
-        }
-        if let (Some(Contracted { open, .. }), Some((head, tail))) = (found, parts)
-            && smaller(open, t)
-        {
-            self.before = head.map_or(self.before, |(_, sign)| Some(sign));
-            self.stack.extend(tail.map(|(_, sign)| Next::Free(sign)));
-            self.stack.push(Next::Look(open));
-            return self.go_on(c);
-        }
-        self.divide(c, t, work);
+        self.go_closer(c, t, found, work);
+    }
+
+    /// Goes on with a smaller piece, or two.
+    fn go_closer(&mut self, c: &Context<'_>, t: Interval, found: Option<Contracted>, work: &mut Workspace) {
+        let Some(found) = found.filter(|c| smaller(c.open, t)) else { return self.divide(c, t, work) };
+        self.before = found.head(t).map_or(self.before, |(_, sign)| Some(sign));
+        self.stack.extend(found.tail(t).map(|(_, sign)| Next::Free(sign)));
+        self.stack.push(Next::Look(found.open));
+        self.go_on(c);
     }
 
     fn divide(&mut self, c: &Context<'_>, t: Interval, work: &mut Workspace) {
@@ -372,54 +382,53 @@ impl Search {
         self.go_on(c);
     }
 
-    fn met(
-        &mut self,
-        c: &Context<'_>,
-        t: Interval,
-        open: Interval,
-        derivative: Interval,
-        signs: [Option<Sign>; 2],
-        work: &mut Workspace,
-    ) {
+    /// All is known of a piece on which f is continuous, and monotone or with opposite signs before and behind its zeros.
+    fn met(&mut self, c: &Context<'_>, Ends { t, derivative, found, signs }: Ends, work: &mut Workspace) {
         match signs {
             [Some(a), Some(b)] if a == b => {
                 self.before = Some(b);
                 self.go_on(c);
             }
-            [Some(before), Some(_)] => self.enclose(c, Root { t: open, before, steps: 0 }, derivative, t),
-            _ => self.divide(c, t, work),
+            [Some(before), Some(_)] => {
+                let open = found.map_or(t, |c| c.open);
+                self.enclose(c, Root { t: open, before, derivative, steps: 0 }, t);
+            }
+            _ => self.go_closer(c, t, found, work),
         }
     }
 
-    /// Goes on with the root, if that pays: `derivative` encloses f' on all of its interval, which was `wider` before.
-    fn enclose(&mut self, c: &Context<'_>, root: Root, derivative: Interval, wider: Interval) {
+    /// Goes on with the root, if that pays, whose interval was `wider` before.
+    fn enclose(&mut self, c: &Context<'_>, root: Root, wider: Interval) {
         if thin(root.t, wider, c.effort) || root.steps == STEPS {
             self.proved(c, root);
-        } else if !derivative.possibly_zero() && (straight(derivative) || !smaller(root.t, wider)) {
-            self.ask(1, Step::Middle(root, derivative));
+        } else if !root.derivative.possibly_zero() && (straight(root.derivative) || !smaller(root.t, wider)) {
+            self.ask(1, Step::Middle(root));
         } else {
             self.ask(1, Step::Narrow(root));
         }
     }
 
     fn narrowed(&mut self, c: &Context<'_>, root: Root, dual: Dual<1>, work: &mut Workspace) {
-        let derivative = dual.derivative.range();
+        let derivative = signed(dual.derivative.range().intersection(root.derivative));
         let open = contract(root.t, &dual.value).map_or(root.t, |c| c.open);
         if derivative.possibly_zero() && !smaller(open, root.t) {
+            if tiny(root.t, self.reach, c.effort) {
+                return self.proved(c, root);
+            }
             // There may be several roots: which one is the first?
             self.before = Some(root.before);
             return self.divide(c, root.t, work);
         }
-        self.enclose(c, Root { t: open, steps: root.steps + 1, ..root }, derivative, root.t);
+        self.enclose(c, Root { t: open, derivative, steps: root.steps + 1, ..root }, root.t);
     }
 
-    fn stepped(&mut self, c: &Context<'_>, root: Root, derivative: Interval, value: Interval) {
-        let narrower = (Interval::point(root.t.mid()) - value / derivative).intersection(root.t);
-        if narrower.is_empty() {
-            // Only possible if an enclosure failed; keep what is proved.
+    fn stepped(&mut self, c: &Context<'_>, root: Root, value: Interval) {
+        let narrower = (Interval::point(root.t.mid()) - value / root.derivative).intersection(root.t);
+        if narrower.is_empty() || narrower == root.t {
+            // Empty only if an enclosure failed: keep what is proved. Else rounding leaves no more.
             return self.proved(c, root);
         }
-        self.enclose(c, Root { t: narrower, steps: root.steps + 1, ..root }, derivative, root.t);
+        self.enclose(c, Root { t: narrower, steps: root.steps + 1, ..root }, root.t);
     }
 
     /// The interval holds the first root. It must lie where the surface exists.
@@ -428,4 +437,9 @@ impl Search {
         let reason = (!inside).then_some(Reason::Resolution);
         self.conclude(c, Meeting { surface: self.surface, t, before: Some(before), reason });
     }
+}
+
+/// An enclosure of a derivative that has a sign; of another one nothing is kept.
+fn signed(derivative: Interval) -> Interval {
+    if derivative.is_empty() || derivative.possibly_zero() { Interval::ENTIRE } else { derivative }
 }

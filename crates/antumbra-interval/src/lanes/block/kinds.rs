@@ -1,6 +1,6 @@
 //! What the second-order search asks, as kinds of number that blocks hold: quadratic forms, jets, slopes of both, and plain jets.
 use super::kernels::{JetOf, PointJetOf, QuadraticOf, SlopeLanes};
-use super::{Packed, Ring, Vector, ring, sealed};
+use super::{Arithmetic, Packed, Vector, arithmetic, sealed};
 use crate::affine::{Affine, Jet, SlopeOf};
 use crate::quadratic::Quadratic;
 use crate::{Interval, PointJet};
@@ -24,7 +24,7 @@ impl sealed::Sealed for PointJet {
 /// The operators; a coordinate is the sum of a product.
 macro_rules! operators {
     () => {
-        ring!();
+        arithmetic!();
         #[inline]
         fn power(self, n: i32) -> Self {
             self.powi(n)

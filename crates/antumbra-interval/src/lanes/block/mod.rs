@@ -28,7 +28,7 @@ pub const MOST: usize = 64;
 
 /// An operation that all kinds of number have in vectors.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ring {
+pub enum Arithmetic {
     /// `-a`.
     Neg,
     /// `a + b`.
@@ -37,13 +37,24 @@ pub enum Ring {
     Sub,
     /// `a b`.
     Mul,
+    /// `a / b`.
+    Div,
     /// `a^2`.
     Sqr,
+    /// Square root.
+    Sqrt,
+    /// `|a|`.
+    Abs,
+    /// The smaller one.
+    Min,
+    /// The larger one.
+    Max,
 }
 
-impl Ring {
+impl Arithmetic {
     /// Every operation.
-    pub const ALL: [Self; 5] = [Self::Neg, Self::Add, Self::Sub, Self::Mul, Self::Sqr];
+    pub const ALL: [Self; 10] =
+        [Self::Neg, Self::Add, Self::Sub, Self::Mul, Self::Div, Self::Sqr, Self::Sqrt, Self::Abs, Self::Min, Self::Max];
 }
 
 /// An operation and its slots, as offsets in vectors of numbers.
@@ -56,7 +67,7 @@ struct Act {
 
 #[derive(Clone, Copy, Debug)]
 enum Operation {
-    Ring(Ring),
+    Arithmetic(Arithmetic),
     Power(u32),
     Coordinate,
 }
@@ -72,7 +83,7 @@ pub trait Packed: Copy + sealed::Sealed {
     fn from_components(of: impl Fn(usize) -> f64) -> Self;
     /// The scalar operator.
     #[must_use]
-    fn ring(op: Ring, a: Self, b: Self) -> Self;
+    fn arithmetic(op: Arithmetic, a: Self, b: Self) -> Self;
     /// The scalar operator `a^n`.
     #[must_use]
     fn power(self, n: i32) -> Self;
@@ -100,21 +111,26 @@ impl<const N: usize> sealed::Sealed for Dual<N> {
     type Of<V: Vector> = DualOf<V, N>;
 }
 
-macro_rules! ring {
+macro_rules! arithmetic {
     () => {
         #[inline]
-        fn ring(op: Ring, a: Self, b: Self) -> Self {
+        fn arithmetic(op: Arithmetic, a: Self, b: Self) -> Self {
             match op {
-                Ring::Neg => -a,
-                Ring::Add => a + b,
-                Ring::Sub => a - b,
-                Ring::Mul => a * b,
-                Ring::Sqr => a.sqr(),
+                Arithmetic::Neg => -a,
+                Arithmetic::Add => a + b,
+                Arithmetic::Sub => a - b,
+                Arithmetic::Mul => a * b,
+                Arithmetic::Div => a / b,
+                Arithmetic::Sqr => a.sqr(),
+                Arithmetic::Sqrt => a.sqrt(),
+                Arithmetic::Abs => a.abs(),
+                Arithmetic::Min => a.min(b),
+                Arithmetic::Max => a.max(b),
             }
         }
     };
 }
-use ring;
+use arithmetic;
 
 impl Packed for Interval {
     const COMPONENTS: usize = 2;
@@ -126,7 +142,7 @@ impl Packed for Interval {
     fn from_components(of: impl Fn(usize) -> f64) -> Self {
         Self { lo: of(0), hi: of(1) }
     }
-    ring!();
+    arithmetic!();
     #[inline]
     fn power(self, n: i32) -> Self {
         self.powi(n)
@@ -151,7 +167,7 @@ impl<const N: usize> Packed for Affine<N> {
     fn from_components(of: impl Fn(usize) -> f64) -> Self {
         Self { c: of(0), e: of(1), a: std::array::from_fn(|i| of(i + 2)) }
     }
-    ring!();
+    arithmetic!();
     #[inline]
     fn power(self, n: i32) -> Self {
         self.powi(n)
@@ -174,7 +190,7 @@ impl<const N: usize> Packed for Dual<N> {
         let derivative = Affine::from_components(|i| of(i + N + 2));
         Self { value: Affine::from_components(of), derivative }
     }
-    ring!();
+    arithmetic!();
     #[inline]
     fn power(self, n: i32) -> Self {
         self.powi(n)
@@ -280,8 +296,8 @@ impl<F: Packed> Block<F> {
 
     /// `slot[out] = op(slot[a], slot[b])` in every lane; the slots may be the same. Operations of one operand take `a`.
     #[inline]
-    pub fn ring(&mut self, level: Level, op: Ring, out: usize, a: usize, b: usize) {
-        self.act(level, Operation::Ring(op), out, [a, b, b]);
+    pub fn arithmetic(&mut self, level: Level, op: Arithmetic, out: usize, a: usize, b: usize) {
+        self.act(level, Operation::Arithmetic(op), out, [a, b, b]);
     }
 
     /// `slot[out] = slot[a]^n` in every lane: by vectors for n from 3 to 8, else lane by lane.
@@ -357,11 +373,16 @@ fn act<V: Vector, F: Packed>(act: Act, memory: &mut [Eight], vectors: usize) {
         };
     }
     match act.op {
-        Operation::Ring(Ring::Neg) => each!(x = 0 => x.neg()),
-        Operation::Ring(Ring::Add) => each!(x = 0, y = 1 => x.add(y)),
-        Operation::Ring(Ring::Sub) => each!(x = 0, y = 1 => x.sub(y)),
-        Operation::Ring(Ring::Mul) => each!(x = 0, y = 1 => x.mul(y)),
-        Operation::Ring(Ring::Sqr) => each!(x = 0 => x.sqr()),
+        Operation::Arithmetic(Arithmetic::Neg) => each!(x = 0 => x.neg()),
+        Operation::Arithmetic(Arithmetic::Add) => each!(x = 0, y = 1 => x.add(y)),
+        Operation::Arithmetic(Arithmetic::Sub) => each!(x = 0, y = 1 => x.sub(y)),
+        Operation::Arithmetic(Arithmetic::Mul) => each!(x = 0, y = 1 => x.mul(y)),
+        Operation::Arithmetic(Arithmetic::Div) => each!(x = 0, y = 1 => x.div(y)),
+        Operation::Arithmetic(Arithmetic::Sqr) => each!(x = 0 => x.sqr()),
+        Operation::Arithmetic(Arithmetic::Sqrt) => each!(x = 0 => x.sqrt()),
+        Operation::Arithmetic(Arithmetic::Abs) => each!(x = 0 => x.abs()),
+        Operation::Arithmetic(Arithmetic::Min) => each!(x = 0, y = 1 => x.min(y)),
+        Operation::Arithmetic(Arithmetic::Max) => each!(x = 0, y = 1 => x.max(y)),
         Operation::Power(n) => each!(x = 0 => x.power(n)),
         Operation::Coordinate => each!(t = 0, d = 1, p = 2 => Kernel::coordinate(t, d, p)),
     }
@@ -377,7 +398,7 @@ fn again<F: Packed>(act: Act, memory: &[Eight], at: usize, chosen: u8) -> [F; WI
             return operand(0);
         }
         match act.op {
-            Operation::Ring(op) => F::ring(op, operand(0), operand(1)),
+            Operation::Arithmetic(op) => F::arithmetic(op, operand(0), operand(1)),
             Operation::Power(n) => operand(0).power(n as i32),
             Operation::Coordinate => F::coordinate(operand(0), operand(1), operand(2)),
         }

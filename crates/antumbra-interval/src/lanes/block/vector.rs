@@ -3,6 +3,8 @@
 //! Every operation is the IEEE 754 one in round to nearest on each of the eight, and nothing is contracted, so a formula
 //! written with it gives the same bits on every level, and those of the same formula on single numbers.
 
+use crate::round;
+
 /// Lanes of one vector.
 pub const WIDTH: usize = 8;
 
@@ -15,6 +17,8 @@ pub struct Eight(pub [f64; WIDTH]);
 pub trait Vector: Copy {
     /// Eight answers.
     type Mask: Copy;
+    /// Whether vectors linearise powers faster than the scalar operator does in the lanes that need it.
+    const LINEARISES: bool;
     /// Eight times `x`.
     fn splat(x: f64) -> Self;
     /// From memory.
@@ -27,6 +31,14 @@ pub trait Vector: Copy {
     fn sub(self, o: Self) -> Self;
     /// `self * o`.
     fn mul(self, o: Self) -> Self;
+    /// `self / o`.
+    fn div(self, o: Self) -> Self;
+    /// Square root.
+    fn sqrt(self) -> Self;
+    /// The float above, of finite numbers: of both zeros the smallest one.
+    fn above(self) -> Self;
+    /// The float below, of finite numbers.
+    fn below(self) -> Self;
     /// Sign bit cleared.
     fn abs(self) -> Self;
     /// Sign bit flipped.
@@ -41,6 +53,8 @@ pub trait Vector: Copy {
     fn both(a: Self::Mask, b: Self::Mask) -> Self::Mask;
     /// One or the other.
     fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask;
+    /// The opposite.
+    fn not(mask: Self::Mask) -> Self::Mask;
     /// Eight times yes.
     fn always() -> Self::Mask;
     /// Bit `i` is answer `i`.
@@ -50,6 +64,10 @@ pub trait Vector: Copy {
     fn all(mask: Self::Mask) -> bool {
         Self::bits(mask) == u8::MAX
     }
+    /// The upper half of the bits, as a whole number; of numbers that are not negative.
+    fn top(self) -> Self;
+    /// The number with this upper half of the bits and nothing below, of whole numbers below 2^31 (else of the nearest one).
+    fn with_top(self) -> Self;
     /// `self > o ? self : o`.
     fn greater(self, o: Self) -> Self;
     /// `self < o ? self : o`.
@@ -74,6 +92,7 @@ macro_rules! each {
 
 impl Vector for Plain {
     type Mask = [bool; WIDTH];
+    const LINEARISES: bool = false;
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self([x; WIDTH])
@@ -97,6 +116,30 @@ impl Vector for Plain {
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         Self(each!(i => self.0[i] * o.0[i]))
+    }
+    #[inline(always)]
+    fn div(self, o: Self) -> Self {
+        Self(each!(i => self.0[i] / o.0[i]))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(each!(i => self.0[i].sqrt()))
+    }
+    #[inline(always)]
+    fn above(self) -> Self {
+        Self(each!(i => self.0[i].next_up()))
+    }
+    #[inline(always)]
+    fn below(self) -> Self {
+        Self(each!(i => self.0[i].next_down()))
+    }
+    #[inline(always)]
+    fn top(self) -> Self {
+        Self(each!(i => round::top(self.0[i])))
+    }
+    #[inline(always)]
+    fn with_top(self) -> Self {
+        Self(each!(i => round::with_top(self.0[i])))
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -133,6 +176,10 @@ impl Vector for Plain {
     #[inline(always)]
     fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask {
         each!(i => a[i] | b[i])
+    }
+    #[inline(always)]
+    fn not(mask: Self::Mask) -> Self::Mask {
+        each!(i => !mask[i])
     }
     #[inline(always)]
     fn always() -> Self::Mask {

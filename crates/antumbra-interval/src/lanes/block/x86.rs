@@ -4,12 +4,17 @@
 //! [`on_avx2`]. Nothing else of the crate makes such vectors.
 use super::vector::{Eight, Vector};
 use super::{Act, Packed, act};
+use crate::round::{ETA, WHOLE};
 use std::arch::x86_64::{
-    __m256d, __m512d, __mmask8, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd,
-    _mm256_blendv_pd, _mm256_cmp_pd, _mm256_load_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
-    _mm256_or_pd, _mm256_set1_pd, _mm256_store_pd, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd, _mm512_add_pd,
-    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_load_pd, _mm512_mask_blend_pd, _mm512_max_pd,
-    _mm512_min_pd, _mm512_mul_pd, _mm512_set1_epi64, _mm512_set1_pd, _mm512_store_pd, _mm512_sub_pd, _mm512_xor_epi64,
+    __m256d, __m256i, __m512d, __mmask8, _CMP_EQ_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_epi64, _mm256_add_pd,
+    _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_cmp_pd,
+    _mm256_cmpgt_epi64, _mm256_div_pd, _mm256_load_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
+    _mm256_or_pd, _mm256_or_si256, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_setzero_si256, _mm256_slli_epi64,
+    _mm256_sqrt_pd, _mm256_srli_epi64, _mm256_store_pd, _mm256_sub_epi64, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd,
+    _mm512_add_epi64, _mm512_add_pd, _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd,
+    _mm512_load_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_or_epi64,
+    _mm512_set1_epi64, _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srai_epi64, _mm512_srli_epi64,
+    _mm512_store_pd, _mm512_sub_epi64, _mm512_sub_pd, _mm512_xor_epi64,
 };
 
 /// Proof that this processor and operating system support AVX2.
@@ -38,6 +43,7 @@ pub(super) struct V256([__m256d; 2]);
 // the feature. Loads and stores are of 64 bytes behind a reference, aligned by the type.
 impl Vector for V512 {
     type Mask = __mmask8;
+    const LINEARISES: bool = true;
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self(unsafe { _mm512_set1_pd(x) })
@@ -61,6 +67,50 @@ impl Vector for V512 {
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         Self(unsafe { _mm512_mul_pd(self.0, o.0) })
+    }
+    #[inline(always)]
+    fn div(self, o: Self) -> Self {
+        Self(unsafe { _mm512_div_pd(self.0, o.0) })
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(unsafe { _mm512_sqrt_pd(self.0) })
+    }
+    // The floats of one sign are as the whole numbers that their bits are.
+    #[inline(always)]
+    fn above(self) -> Self {
+        unsafe {
+            let x = _mm512_castpd_si512(self.0);
+            let sign = _mm512_or_epi64(_mm512_srai_epi64::<63>(x), _mm512_set1_epi64(1));
+            let next = _mm512_castsi512_pd(_mm512_add_epi64(x, sign));
+            let zero = _mm512_cmp_pd_mask::<_CMP_EQ_OQ>(self.0, _mm512_set1_pd(0.0));
+            Self(_mm512_mask_blend_pd(zero, next, _mm512_set1_pd(ETA)))
+        }
+    }
+    #[inline(always)]
+    fn below(self) -> Self {
+        unsafe {
+            let x = _mm512_castpd_si512(self.0);
+            let sign = _mm512_or_epi64(_mm512_srai_epi64::<63>(x), _mm512_set1_epi64(1));
+            let next = _mm512_castsi512_pd(_mm512_sub_epi64(x, sign));
+            let zero = _mm512_cmp_pd_mask::<_CMP_EQ_OQ>(self.0, _mm512_set1_pd(0.0));
+            Self(_mm512_mask_blend_pd(zero, next, _mm512_set1_pd(-ETA)))
+        }
+    }
+    #[inline(always)]
+    fn top(self) -> Self {
+        unsafe {
+            let k = _mm512_srli_epi64::<32>(_mm512_castpd_si512(self.0));
+            let whole = _mm512_or_epi64(k, _mm512_castpd_si512(_mm512_set1_pd(WHOLE)));
+            Self(_mm512_sub_pd(_mm512_castsi512_pd(whole), _mm512_set1_pd(WHOLE)))
+        }
+    }
+    #[inline(always)]
+    fn with_top(self) -> Self {
+        unsafe {
+            let whole = _mm512_castpd_si512(_mm512_add_pd(self.0, _mm512_set1_pd(WHOLE)));
+            Self(_mm512_castsi512_pd(_mm512_slli_epi64::<32>(whole)))
+        }
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -101,6 +151,10 @@ impl Vector for V512 {
         a | b
     }
     #[inline(always)]
+    fn not(mask: __mmask8) -> __mmask8 {
+        !mask
+    }
+    #[inline(always)]
     fn always() -> __mmask8 {
         u8::MAX
     }
@@ -120,8 +174,23 @@ macro_rules! halves {
     };
 }
 
+impl V256 {
+    /// Whole numbers -1 where the sign bit is set, else 1.
+    #[inline(always)]
+    fn signs(self) -> [__m256i; 2] {
+        unsafe {
+            let (zero, one) = (_mm256_setzero_si256(), _mm256_set1_epi64x(1));
+            [
+                _mm256_or_si256(_mm256_cmpgt_epi64(zero, _mm256_castpd_si256(self.0[0])), one),
+                _mm256_or_si256(_mm256_cmpgt_epi64(zero, _mm256_castpd_si256(self.0[1])), one),
+            ]
+        }
+    }
+}
+
 impl Vector for V256 {
     type Mask = [__m256d; 2];
+    const LINEARISES: bool = true;
     #[inline(always)]
     fn splat(x: f64) -> Self {
         Self(unsafe { [_mm256_set1_pd(x); 2] })
@@ -148,6 +217,57 @@ impl Vector for V256 {
     #[inline(always)]
     fn mul(self, o: Self) -> Self {
         Self(halves!(_mm256_mul_pd self.0, o.0))
+    }
+    #[inline(always)]
+    fn div(self, o: Self) -> Self {
+        Self(halves!(_mm256_div_pd self.0, o.0))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        Self(unsafe { [_mm256_sqrt_pd(self.0[0]), _mm256_sqrt_pd(self.0[1])] })
+    }
+    #[inline(always)]
+    fn above(self) -> Self {
+        let (zero, sign) = (Self::splat(0.0), self.signs());
+        let next = unsafe {
+            [
+                _mm256_castsi256_pd(_mm256_add_epi64(_mm256_castpd_si256(self.0[0]), sign[0])),
+                _mm256_castsi256_pd(_mm256_add_epi64(_mm256_castpd_si256(self.0[1]), sign[1])),
+            ]
+        };
+        Self::select(Self::both(self.le(zero), zero.le(self)), Self::splat(ETA), Self(next))
+    }
+    #[inline(always)]
+    fn below(self) -> Self {
+        let (zero, sign) = (Self::splat(0.0), self.signs());
+        let next = unsafe {
+            [
+                _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_castpd_si256(self.0[0]), sign[0])),
+                _mm256_castsi256_pd(_mm256_sub_epi64(_mm256_castpd_si256(self.0[1]), sign[1])),
+            ]
+        };
+        Self::select(Self::both(self.le(zero), zero.le(self)), Self::splat(-ETA), Self(next))
+    }
+    #[inline(always)]
+    fn top(self) -> Self {
+        let whole = Self::splat(WHOLE);
+        let k = unsafe {
+            [
+                _mm256_castsi256_pd(_mm256_srli_epi64::<32>(_mm256_castpd_si256(self.0[0]))),
+                _mm256_castsi256_pd(_mm256_srli_epi64::<32>(_mm256_castpd_si256(self.0[1]))),
+            ]
+        };
+        Self(halves!(_mm256_or_pd k, whole.0)).sub(whole)
+    }
+    #[inline(always)]
+    fn with_top(self) -> Self {
+        let whole = self.add(Self::splat(WHOLE));
+        Self(unsafe {
+            [
+                _mm256_castsi256_pd(_mm256_slli_epi64::<32>(_mm256_castpd_si256(whole.0[0]))),
+                _mm256_castsi256_pd(_mm256_slli_epi64::<32>(_mm256_castpd_si256(whole.0[1]))),
+            ]
+        })
     }
     #[inline(always)]
     fn abs(self) -> Self {
@@ -186,6 +306,10 @@ impl Vector for V256 {
     #[inline(always)]
     fn either(a: Self::Mask, b: Self::Mask) -> Self::Mask {
         halves!(_mm256_or_pd a, b)
+    }
+    #[inline(always)]
+    fn not(mask: Self::Mask) -> Self::Mask {
+        halves!(_mm256_xor_pd mask, Self::always())
     }
     #[inline(always)]
     fn always() -> Self::Mask {

@@ -2,7 +2,7 @@
 //!
 //! The formulas of the scalar operators, as in the parent module. Why they enclose is said in `quadratic::arith`, `affine::jet` and
 //! `affine::slope`.
-use super::{AffineOf, Kernel};
+use super::{AffineOf, Kernel, left_to_scalars};
 use crate::affine::{LARGE, TINY, U};
 use crate::lanes::block::vector::{Eight, Vector};
 use crate::quadratic::arith::{PAIRS, PRODUCT};
@@ -366,6 +366,7 @@ macro_rules! kernel_of_enclosures {
             fn sqr(self) -> (Self, V::Mask) {
                 (self.squared(), V::always())
             }
+            left_to_scalars!();
             #[inline(always)]
             fn power(self, _: u32) -> (Self, V::Mask) {
                 (self, never::<V>())
@@ -425,6 +426,7 @@ impl<V: Vector> Kernel<V> for PointJetOf<V> {
     fn sqr(self) -> (Self, V::Mask) {
         (self.times(self), V::always())
     }
+    left_to_scalars!();
     #[inline(always)]
     fn power(self, n: u32) -> (Self, V::Mask) {
         let square = self.times(self);

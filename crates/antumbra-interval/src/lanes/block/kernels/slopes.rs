@@ -1,6 +1,6 @@
 //! Slopes of forms on vectors, from apexes in intervals. Why they enclose is said in `affine::slope`.
 use super::forms::{Enclosures, never};
-use super::{IntervalOf, Kernel};
+use super::{IntervalOf, Kernel, left_to_scalars};
 use crate::lanes::block::vector::{Eight, Vector};
 
 /// Eight slopes from apexes in intervals.
@@ -9,17 +9,6 @@ pub struct SlopeLanes<V, F> {
     apex: IntervalOf<V>,
     value: F,
     slope: F,
-}
-
-impl<V: Vector> IntervalOf<V> {
-    /// Of every number in it: what `affine::centre_radius` says.
-    #[inline(always)]
-    fn centre_radius(self) -> (V, V) {
-        let half = V::splat(0.5);
-        let m = half.mul(self.lo).add(half.mul(self.hi));
-        let d = m.sub(self.lo).greater(self.hi.sub(m));
-        (m, d.add(d.mul(V::splat(f64::EPSILON))))
-    }
 }
 
 /// The apex decides which lanes are proper.
@@ -69,6 +58,7 @@ impl<V: Vector, F: Enclosures<V>> Kernel<V> for SlopeLanes<V, F> {
         let slope = self.slope.multiplied(self.value.plus_centre_radius(m, r));
         (Self { apex, value: self.value.squared(), slope }, proper)
     }
+    left_to_scalars!();
     #[inline(always)]
     fn power(self, _: u32) -> (Self, V::Mask) {
         (self, never::<V>())
