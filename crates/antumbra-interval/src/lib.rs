@@ -55,6 +55,7 @@ mod decoration;
 mod elementary;
 mod interval;
 pub mod lanes;
+mod point_jet;
 mod power;
 pub mod quadratic;
 pub mod round;
@@ -64,3 +65,4 @@ mod trig;
 
 pub use decoration::{Decorated, Decoration};
 pub use interval::Interval;
+pub use point_jet::PointJet;

@@ -20,7 +20,7 @@ use antumbra::scene::{Object, PRESETS, Scene, View, preset};
 use antumbra::shadow::{self, Known, Penumbra, Receiver, Scratch, Tolerance};
 use antumbra::trace::{Cost, Sign, Surface};
 use antumbra_interval::Interval;
-use light::{found, root, sees, visible};
+use light::{found, root, sees, sees_finely, visible};
 use sampler::{Judge, Point, Seen, Shares, point};
 use std::sync::Arc;
 use std::time::Duration;
@@ -80,7 +80,12 @@ fn contradicted(scene: &Scene, judges: &[Judge], frame: &Frame, light_scale: f64
         let Some((own, p, before)) = found(scene, judges, frame, index).filter(|_| lit || dark) else { continue };
         // Not the very corners: what is lit up to a set without area may be tangent there.
         let corners = [[-0.98, -0.98], [0.98, -0.98], [-0.98, 0.98], [0.98, 0.98], [0.0, 0.0]];
-        if corners.iter().any(|&at| sees(judges, own, &p, before, &light, at) == Some(dark)) {
+        // A blade may be crossed between two samples: what seems to be a contradiction is looked at again.
+        let against = |&at: &[f64; 2]| {
+            sees(judges, own, &p, before, &light, at) == Some(dark)
+                && sees_finely(judges, own, &p, before, &light, at) == Some(dark)
+        };
+        if corners.iter().any(against) {
             wrong.push(index);
         }
     }

@@ -5,10 +5,10 @@ use crate::affine::Affine;
 use std::ops::{Add, Mul, Neg, Sub};
 
 /// Pairs of symbols `i < j` with the index of their mixed term.
-const PAIRS: [(usize, usize, usize); 3] = [(0, 1, 3), (0, 2, 4), (1, 2, 5)];
+pub(crate) const PAIRS: [(usize, usize, usize); 3] = [(0, 1, 3), (0, 2, 4), (1, 2, 5)];
 
 /// Rounding steps of a product, see [`Mul`].
-const PRODUCT: f64 = 64.0 * U;
+pub(crate) const PRODUCT: f64 = 64.0 * U;
 
 impl Neg for Quadratic {
     type Output = Self;

@@ -9,7 +9,7 @@
 //! As in [`crate::affine`]: operations in round to nearest, and every operation adds `(number of steps) u * size` to `e`,
 //! where `size` bounds the sum of the magnitudes of all terms that took part, and `2^-1022` where products occur. A known
 //! form has only finite numbers; [`Quadratic::UNKNOWN`] says nothing.
-mod arith;
+pub(crate) mod arith;
 mod eliminate;
 mod functions;
 
@@ -24,11 +24,11 @@ use crate::affine::{Affine, LARGE, TINY, U, centre_radius, overflow};
 /// `e = inf` ([`Quadratic::UNKNOWN`]) says nothing. Otherwise all numbers are finite and `e >= 0`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Quadratic {
-    c: f64,
-    l: [f64; 3],
+    pub(crate) c: f64,
+    pub(crate) l: [f64; 3],
     /// ss, aa, bb, sa, sb, ab.
-    q: [f64; 6],
-    e: f64,
+    pub(crate) q: [f64; 6],
+    pub(crate) e: f64,
 }
 
 impl Quadratic {

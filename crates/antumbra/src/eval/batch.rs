@@ -2,7 +2,7 @@
 //!
 //! A tape is run once for up to [`MOST`] questions. Every lane has the bits of the one interpreter on single numbers
 //! ([`run`](super::run)), on every machine: so whether, and with which neighbours, a question is asked in a batch changes no answer.
-use super::{Gradient, Number};
+use super::{Gradient, Number, forms};
 use crate::expr::{Binary, Unary};
 use crate::geom::{Beam, Box3, Fan, axes};
 use crate::tape::{Op, Tape};
@@ -50,7 +50,7 @@ pub struct FanPiece {
 }
 
 /// Fewer questions than these are asked one by one.
-const FEWEST: usize = 3;
+pub(super) const FEWEST: usize = 3;
 
 /// Slots before those of the tape: the parameter, three directions that become coordinates, three starting points.
 const OWN: usize = 7;
@@ -72,7 +72,7 @@ impl std::ops::AddAssign for Occupancy {
 }
 
 impl Occupancy {
-    fn count(&mut self, questions: usize) {
+    pub(super) fn count(&mut self, questions: usize) {
         self.questions += questions as u64;
         self.lanes += questions.next_multiple_of(WIDTH) as u64;
     }
@@ -86,6 +86,7 @@ pub(super) struct Scratch {
     ranges: Block<Interval>,
     rays: Block<Dual<1>>,
     beams: Block<Affine<3>>,
+    forms: forms::Blocks,
     /// Which slot holds the value of a slot of the tape.
     places: Vec<usize>,
 }
@@ -104,13 +105,14 @@ impl Scratch {
             ranges: Block::default(),
             rays: Block::default(),
             beams: Block::default(),
+            forms: forms::Blocks::default(),
             places: Vec::new(),
         }
     }
 }
 
 /// The operation that blocks have in vectors.
-fn in_vectors(op: Op) -> Option<Arithmetic> {
+pub(super) fn in_vectors(op: Op) -> Option<Arithmetic> {
     match op {
         Op::Unary(op) => match op {
             Unary::Neg => Some(Arithmetic::Neg),
@@ -143,18 +145,32 @@ fn run_block<F: Number + Packed>(
     for axis in 0..3 {
         block.coordinate(level, 1 + axis, 0, 1 + axis, 4 + axis);
     }
+    run_clauses(tape, block, lanes, level, places, (1, OWN), in_vectors)
+}
+
+/// Runs a tape on a block that holds the coordinates in slots from `axes` on; slots from `own` on are those of the tape. Tells where the
+/// value is.
+pub(super) fn run_clauses<F: Number + Packed>(
+    tape: &Tape,
+    block: &mut Block<F>,
+    lanes: usize,
+    level: Level,
+    places: &mut Vec<usize>,
+    (axes, own): (usize, usize),
+    in_vectors: impl Fn(Op) -> Option<Arithmetic>,
+) -> usize {
     places.clear();
     places.resize(tape.slots(), 0);
     let mut last = 0;
     for clause in tape.clauses() {
         let (a, b) = (places[clause.a as usize], places[clause.b as usize]);
-        let out = OWN + clause.out as usize;
+        let out = own + clause.out as usize;
         last = out;
         match (clause.op, in_vectors(clause.op)) {
             (_, Some(op)) => block.arithmetic(level, op, out, a, b),
             (Op::Constant(index), _) => block.fill(out, F::constant(tape.constants()[index as usize])),
             // Nothing writes the slots of the axes: they need no copy.
-            (Op::Axis(axis), _) => last = 1 + axis as usize,
+            (Op::Axis(axis), _) => last = axes + axis as usize,
             (Op::Unary(op), _) => block.map(lanes, out, a, |x| x.unary(op)),
             (Op::Powi(n), _) => block.power(level, lanes, n, out, a),
             (Op::Binary(op), _) => block.map2(lanes, out, a, b, |x, y| x.binary(op, y)),
@@ -245,6 +261,14 @@ impl Scratch {
             (0..3).for_each(|axis| block.load(1 + axis, pieces.len(), |lane| pieces[lane].fan.direction[axis]));
             start(block, pieces, |piece, axis| piece.fan.apex[axis], Affine::constant);
         })
+    }
+}
+
+impl Scratch {
+    /// Answers to questions of the second-order search.
+    pub(super) fn forms(&mut self) -> forms::Runs<'_> {
+        let Self { occupancy, level, forms: blocks, places, .. } = self;
+        forms::Runs { level: *level, places, occupancy, blocks }
     }
 }
 

@@ -48,8 +48,12 @@ pub type BeamPoint = [Affine<3>; 3];
 pub type ShaftPoint = [Affine<5>; 3];
 /// A point on a beam piece, as quadratic functions of (s, a, b): along the piece, and across it.
 pub type QuadraticPoint = [Quadratic; 3];
+/// The same with the slopes from an apex.
+pub type QuadraticSlopePoint = [SlopeOf<Interval, Quadratic>; 3];
 /// A point on a beam piece and its motion along the beam.
 pub type JetPoint = [Jet<Affine<3>>; 3];
+/// The same with the slopes from an apex.
+pub type JetSlopePoint = [SlopeOf<Interval, Jet<Affine<3>>>; 3];
 
 /// A real function of space with its inclusion functions (paper, section 2): everything a renderer may ask of it.
 ///
@@ -145,7 +149,7 @@ pub trait Inclusion: Send + Sync {
     }
 
     /// The slope over a piece of a beam, to second order. By default of first order only.
-    fn quadratic_slope(&self, point: [SlopeOf<Interval, Quadratic>; 3], work: &mut Workspace) -> Quadratic {
+    fn quadratic_slope(&self, point: QuadraticSlopePoint, work: &mut Workspace) -> Quadratic {
         let slopes = point.map(|x| Slope { apex: x.apex, value: x.value.to_affine(), slope: x.slope.to_affine() });
         self.beam_slope(slopes, work).into()
     }
@@ -157,7 +161,7 @@ pub trait Inclusion: Send + Sync {
     }
 
     /// The same of the slope.
-    fn jet_slope(&self, _point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], _work: &mut Workspace) -> Jet<Affine<3>> {
+    fn jet_slope(&self, _point: JetSlopePoint, _work: &mut Workspace) -> Jet<Affine<3>> {
         Jet::UNKNOWN
     }
 
@@ -165,6 +169,36 @@ pub trait Inclusion: Send + Sync {
     fn about(&self, point: [PointJet; 3], work: &mut Workspace) -> PointJet {
         super::jet::by_differences(self, point, work)
     }
+
+    /// [`quadratic`](Self::quadratic) over many pieces. Panics unless there are as many answers as questions.
+    fn quadratics(&self, points: &[QuadraticPoint], out: &mut [Quadratic], work: &mut Workspace) {
+        one_by_one(points, out, |point| self.quadratic(point, work));
+    }
+
+    /// [`quadratic_slope`](Self::quadratic_slope) over many pieces. Panics unless there are as many answers as questions.
+    fn quadratic_slopes(&self, points: &[QuadraticSlopePoint], out: &mut [Quadratic], work: &mut Workspace) {
+        one_by_one(points, out, |point| self.quadratic_slope(point, work));
+    }
+
+    /// [`jet`](Self::jet) over many pieces. Panics unless there are as many answers as questions.
+    fn jets(&self, points: &[JetPoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
+        one_by_one(points, out, |point| self.jet(point, work));
+    }
+
+    /// [`jet_slope`](Self::jet_slope) over many pieces. Panics unless there are as many answers as questions.
+    fn jet_slopes(&self, points: &[JetSlopePoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
+        one_by_one(points, out, |point| self.jet_slope(point, work));
+    }
+
+    /// [`about`](Self::about) at many points. Panics unless there are as many answers as questions.
+    fn abouts(&self, points: &[[PointJet; 3]], out: &mut [PointJet], work: &mut Workspace) {
+        one_by_one(points, out, |point| self.about(point, work));
+    }
+}
+
+fn one_by_one<Q: Copy, A>(questions: &[Q], out: &mut [A], mut answer: impl FnMut(Q) -> A) {
+    assert_eq!(questions.len(), out.len(), "as many answers as questions");
+    questions.iter().zip(out).for_each(|(question, out)| *out = answer(*question));
 }
 
 /// The mean value form `f(m) + grad f . (X - m)` over a box X with middle m: of second order, where the natural extension
@@ -312,7 +346,7 @@ impl Inclusion for Tape {
     }
 
     #[inline]
-    fn quadratic_slope(&self, point: [SlopeOf<Interval, Quadratic>; 3], work: &mut Workspace) -> Quadratic {
+    fn quadratic_slope(&self, point: QuadraticSlopePoint, work: &mut Workspace) -> Quadratic {
         run(self, point, &mut work.quadratic_slopes).slope
     }
 
@@ -320,11 +354,43 @@ impl Inclusion for Tape {
         run(self, point, &mut work.jets)
     }
 
-    fn jet_slope(&self, point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], work: &mut Workspace) -> Jet<Affine<3>> {
+    fn jet_slope(&self, point: JetSlopePoint, work: &mut Workspace) -> Jet<Affine<3>> {
         run(self, point, &mut work.jet_slopes).slope
     }
 
     fn about(&self, point: [PointJet; 3], work: &mut Workspace) -> PointJet {
         run(self, point, &mut work.points)
     }
+
+    fn quadratics(&self, points: &[QuadraticPoint], out: &mut [Quadratic], work: &mut Workspace) {
+        let unasked = work.batch.forms().answer(self, points, out, |x| x);
+        the_rest(unasked, points, out, |point| self.quadratic(point, work));
+    }
+
+    fn quadratic_slopes(&self, points: &[QuadraticSlopePoint], out: &mut [Quadratic], work: &mut Workspace) {
+        let unasked = work.batch.forms().answer(self, points, out, |x| x.slope);
+        the_rest(unasked, points, out, |point| self.quadratic_slope(point, work));
+    }
+
+    fn jets(&self, points: &[JetPoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
+        let unasked = work.batch.forms().answer(self, points, out, |x| x);
+        the_rest(unasked, points, out, |point| self.jet(point, work));
+    }
+
+    fn jet_slopes(&self, points: &[JetSlopePoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
+        let unasked = work.batch.forms().answer(self, points, out, |x| x.slope);
+        the_rest(unasked, points, out, |point| self.jet_slope(point, work));
+    }
+
+    fn abouts(&self, points: &[[PointJet; 3]], out: &mut [PointJet], work: &mut Workspace) {
+        let unasked = work.batch.forms().answer(self, points, out, |x| x);
+        the_rest(unasked, points, out, |point| self.about(point, work));
+    }
+}
+
+/// What batches left over, one by one.
+fn the_rest<Q: Copy, A>(Unasked(rest): Unasked, questions: &[Q], out: &mut [A], answer: impl FnMut(Q) -> A) {
+    assert_eq!(questions.len(), out.len(), "as many answers as questions");
+    let asked = questions.len() - rest;
+    one_by_one(&questions[asked..], &mut out[asked..], answer);
 }

@@ -14,6 +14,7 @@
 //! | [`Dual`](antumbra_interval::affine::Dual) | f and its derivative along a ray, in affine form |
 mod batch;
 mod enclosure;
+mod forms;
 mod gradient;
 mod inclusion;
 mod jet;
@@ -23,10 +24,13 @@ mod regions;
 mod sieve;
 pub mod wgsl;
 
+pub use antumbra_interval::PointJet;
 pub use batch::{FanPiece, Occupancy, RayPiece};
 pub use gradient::Gradient;
-pub use inclusion::{BeamPoint, Inclusion, JetPoint, QuadraticPoint, ShaftPoint, Workspace, centred_range};
-pub use jet::PointJet;
+pub use inclusion::{
+    BeamPoint, Inclusion, JetPoint, JetSlopePoint, QuadraticPoint, QuadraticSlopePoint, ShaftPoint, Workspace,
+    centred_range,
+};
 pub use machine::{Number, run};
 pub use point::value_at;
 pub use regions::{RegionCount, Regions};

@@ -19,10 +19,17 @@ impl Sheet {
     }
 
     /// Encloses the difference `self - o` over the part `u x v` of the light: exactly 0 where both are the same.
-    fn minus(&self, o: &Self, [u, v]: [Interval; 2]) -> Interval {
+    ///
+    /// Equal slopes are left out: their difference is exactly 0, and most sheets that are compared are parallel.
+    fn minus(&self, o: &Self, part: [Interval; 2]) -> Interval {
         let point = Interval::point;
-        let slope = |i: usize| point(self.slopes[i]) - point(o.slopes[i]);
-        point(self.k) - point(o.k) + slope(0) * u + slope(1) * v
+        let mut difference = point(self.k) - point(o.k);
+        for (i, along) in part.into_iter().enumerate() {
+            if self.slopes[i] != o.slopes[i] {
+                difference = difference + (point(self.slopes[i]) - point(o.slopes[i])) * along;
+            }
+        }
+        difference
     }
 
     /// Whether all numbers are finite: only then may anything else be asked.

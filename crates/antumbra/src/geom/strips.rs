@@ -264,10 +264,12 @@ impl Along {
 impl Line {
     /// Bounds of `1 - s x - h` at both ends of the strip: the length of the part of `[-1, 1]` that is beyond the line.
     fn lengths_down(&self) -> [f64; 2] {
-        [-1.0, 1.0].map(|y| sub_down(1.0, add_up(add_up(self.sign * self.m, y * self.sign * self.g), self.h)))
+        let at = |y: f64| sub_down(1.0, add_up(add_up(self.sign * self.m, y * self.sign * self.g), self.h));
+        [at(-1.0), at(1.0)]
     }
     fn lengths_up(&self) -> [f64; 2] {
-        [-1.0, 1.0].map(|y| sub_up(1.0, add_down(add_down(self.sign * self.m, y * self.sign * self.g), self.h)))
+        let at = |y: f64| sub_up(1.0, add_down(add_down(self.sign * self.m, y * self.sign * self.g), self.h));
+        [at(-1.0), at(1.0)]
     }
 }
 

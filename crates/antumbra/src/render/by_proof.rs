@@ -4,8 +4,9 @@ use super::pixel::Light;
 use super::task::Task;
 use crate::eval::Workspace;
 use crate::geom::Rect;
-use crate::shadow::{self, Known, Part, Receiver, Shaft, ShaftVerdict, shaft, visible};
+use crate::shadow::{self, Asking, Known, Part, Receiver, Shaft, ShaftVerdict, shaft, visibles};
 use crate::trace::{Cost, Surface};
+use std::rc::Rc;
 
 /// Side of the blocks that both passes start with: a power of two.
 pub(super) const BLOCK: usize = 32;
@@ -20,6 +21,16 @@ pub(super) fn indices(task: &Task, (column, row, side): Block) -> impl Iterator<
     rows.step_by(width).flat_map(move |left| columns.clone().map(move |column| left + column))
 }
 
+/// A hit that no shaft settled.
+struct Alone<'a> {
+    /// Where its answer goes.
+    place: usize,
+    receiver: &'a Receiver,
+    light: &'a Rect,
+    /// What shafts have found out for it and its neighbours.
+    sees: Rc<Known>,
+}
+
 /// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one. Brackets that are
 /// given, and narrow enough, are not looked for.
 pub(super) fn shadows<'a>(
@@ -31,7 +42,7 @@ pub(super) fn shadows<'a>(
 ) -> Vec<Light> {
     let surfaces = task.surfaces();
     let (mut work, mut scratch) = (Workspace::default(), shadow::Scratch::default());
-    let mut out = Vec::new();
+    let (mut out, mut alone) = (Vec::new(), Vec::new());
     // What a shaft costs is booked on the first pixel below it.
     let mut owed = Cost::default();
     let start = |light| ((column, row, BLOCK), light, Known::nothing(&surfaces));
@@ -85,23 +96,23 @@ pub(super) fn shadows<'a>(
             }
             continue;
         }
+        let sees = Rc::new(sees);
         for (index, receiver) in hits {
-            let mut cost = Cost::default();
-            let bracket = visible(&surfaces, receiver, rect, &sees, task.tolerance, &mut scratch, &mut work, &mut cost);
-            // Both brackets hold, so they meet.
-            let [lo, hi] = known(light, index).unwrap_or([0.0, 1.0]);
-            let (lo, hi) = (lo.max(bracket.lo), hi.min(bracket.hi));
-            out.push(Light {
-                index,
-                light,
-                lo,
-                hi,
-                reason: bracket.reason.filter(|_| !narrow(&[lo, hi])),
-                first_occluded: !bracket.first_free,
-                initial: std::mem::take(&mut owed),
-                sub: cost,
-            });
+            let initial = std::mem::take(&mut owed);
+            alone.push(Alone { place: out.len(), receiver, light: rect, sees: Rc::clone(&sees) });
+            out.push(Light { index, light, initial, ..Light::default() });
         }
+    }
+    let asking: Vec<Asking<'_>> =
+        alone.iter().map(|a| Asking { receiver: a.receiver, light: a.light, known: &a.sees }).collect();
+    let found = visibles(&surfaces, &asking, task.tolerance, &mut scratch, &mut work);
+    for (Alone { place, .. }, (bracket, cost)) in alone.iter().zip(found) {
+        let out = &mut out[*place];
+        // Both brackets hold, so they meet.
+        let [lo, hi] = known(out.light, out.index).unwrap_or([0.0, 1.0]);
+        (out.lo, out.hi) = (lo.max(bracket.lo), hi.min(bracket.hi));
+        out.reason = bracket.reason.filter(|_| !narrow(&[out.lo, out.hi]));
+        (out.first_occluded, out.sub) = (!bracket.first_free, cost);
     }
     out
 }

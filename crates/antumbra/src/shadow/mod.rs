@@ -13,8 +13,9 @@
 //!
 //! Where the light is partly visible, the second-order method takes over from the half planes ([`Penumbra`]).
 //!
-//! [`shaft`] settles whole tiles of hits at once, [`visible`] one hit.
+//! [`shaft`] settles whole tiles of hits at once, [`visibles`] hit by hit, in lockstep, so that evaluations come in batches.
 #![deny(clippy::float_arithmetic)]
+mod desk;
 mod known;
 mod ledger;
 mod occluders;
@@ -28,4 +29,4 @@ pub use known::{Known, Part};
 pub use occluders::Receiver;
 pub use second::{Claim, Says};
 pub use shaft::{Shaft, ShaftVerdict, shaft};
-pub use visible::{Bracket, Penumbra, Scratch, Tolerance, visible};
+pub use visible::{Asking, Bracket, Penumbra, Scratch, Tolerance, visible, visibles};

@@ -129,14 +129,14 @@ pub fn shaft<'a>(
         let front = fronts[surface];
         cost.evaluations += 1;
         let along = Affine::<5>::spanning(0, t);
-        let point: [Slope<Affine<5>, 5>; 3] =
-            std::array::from_fn(|k| Slope::coordinate(shaft.apex[k], along, direction[k]));
         let own = surface == shaft.surface;
         // At t = 0 only the slope tells anything.
         let form = if own && (shaft_slope_pays(t) || t.lo() == 0.0) {
-            at.function.shaft_slope(point, work)
+            let point = |k: usize| Slope::coordinate(shaft.apex[k], along, direction[k]);
+            at.function.shaft_slope([point(0), point(1), point(2)], work)
         } else {
-            at.function.shaft(point.map(|x| x.value), work)
+            let point = |k: usize| along * direction[k] + shaft.apex[k];
+            at.function.shaft([point(0), point(1), point(2)], work)
         };
         if form.range() == Interval::ENTIRE {
             let region = Box3(std::array::from_fn(|k| apex[k] + t * directions[k]));

@@ -1,4 +1,5 @@
 //! The visible fraction of a light from one hit.
+use super::desk::Desk;
 use super::known::{Known, Part};
 use super::ledger::{Ledger, area};
 use super::occluders::{Receiver, fronts};
@@ -12,6 +13,7 @@ use crate::verdict::Reason;
 use antumbra_interval::Interval;
 use antumbra_interval::round::sub_up;
 use std::ops::Range;
+use std::task::{Context, Poll, Waker};
 
 /// The visible fraction lies in `[lo, hi]`: proved.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,12 +67,21 @@ pub struct Tolerance {
     pub penumbra: Penumbra,
 }
 
-/// Scratch memory of one thread.
+/// Scratch memory of one thread. What hits have taught is kept in it too: begin each independent set of hits with a new one.
 #[derive(Debug, Default)]
 pub struct Scratch {
+    pub(super) shaft: super::shaft::Scratch,
+    /// Of searches that are done, for others.
+    idle: Vec<Search>,
+    learned: second::Learned,
+    claims: Option<Vec<second::Claim>>,
+}
+
+/// Scratch memory of one search.
+#[derive(Debug, Default)]
+struct Search {
     rectangle: rectangle::Scratch,
     second: second::Scratch,
-    pub(super) shaft: super::shaft::Scratch,
     pieces: Vec<Piece>,
     ledger: Ledger<Range<usize>>,
 }
@@ -78,13 +89,24 @@ pub struct Scratch {
 impl Scratch {
     /// From now on, what the second-order method claims is written down.
     pub fn record_claims(&mut self) {
-        self.second.claims = Some(Vec::new());
+        self.claims = Some(Vec::new());
     }
 
     /// What it claimed since the last call, cell by cell. Every claim is a theorem; children repeat their parents.
     pub fn take_claims(&mut self) -> Vec<second::Claim> {
-        self.second.claims.as_mut().map(std::mem::take).unwrap_or_default()
+        self.claims.as_mut().map(std::mem::take).unwrap_or_default()
     }
+}
+
+/// A hit that asks for a light.
+#[derive(Clone, Copy, Debug)]
+pub struct Asking<'a> {
+    /// The hit.
+    pub receiver: &'a Receiver,
+    /// The light.
+    pub light: &'a Rect,
+    /// What is known of it.
+    pub known: &'a Known,
 }
 
 /// The certified visible fraction of `light` from a hit, given what is known of it (by default [`Known::nothing`]).
@@ -101,24 +123,99 @@ pub fn visible(
     work: &mut Workspace,
     cost: &mut Cost,
 ) -> Bracket {
-    if known.settled() {
-        let [lo, hi] = known.bounds();
-        return Bracket { lo, hi, reason: None, first_free: known.whole() && lo == 1.0 };
+    let (bracket, own) = visibles(surfaces, &[Asking { receiver, light, known }], tolerance, s, work)[0];
+    *cost += own;
+    bracket
+}
+
+/// The same for many hits, with what each cost.
+///
+/// They are looked at in lockstep, some at a time, the next one as soon as one is done, so that evaluations come in batches. What
+/// they learn of choices depends on their order alone; what is proved does not depend on it.
+pub fn visibles(
+    surfaces: &[Surface<'_>],
+    hits: &[Asking<'_>],
+    tolerance: Tolerance,
+    s: &mut Scratch,
+    work: &mut Workspace,
+) -> Vec<(Bracket, Cost)> {
+    let desk = Desk::new(surfaces, work, s.learned);
+    let mut out = vec![(Bracket::LIT, Cost::default()); hits.len()];
+    let mut coming = hits.iter().enumerate();
+    let mut searches = Vec::new();
+    let mut context = Context::from_waker(Waker::noop());
+    loop {
+        while searches.len() < desk.learned().company()
+            && let Some((index, hit)) = coming.next()
+        {
+            if hit.known.settled() {
+                let [lo, hi] = hit.known.bounds();
+                out[index].0 = Bracket { lo, hi, reason: None, first_free: hit.known.whole() && lo == 1.0 };
+                continue;
+            }
+            let worth = desk.learned().worth(tolerance.penumbra);
+            let mut own = s.idle.pop().unwrap_or_default();
+            own.second.claims = s.claims.is_some().then(Vec::new);
+            searches.push((index, Box::pin(search(&desk, hit, worth, tolerance, own))));
+        }
+        if searches.is_empty() {
+            s.learned = *desk.learned();
+            return out;
+        }
+        searches.retain_mut(|(index, search)| {
+            let Poll::Ready(found) = search.as_mut().poll(&mut context) else { return true };
+            let Found { bracket, cost, settled, mut own } = found;
+            out[*index] = (bracket, cost);
+            desk.learned().done(settled);
+            if let (Some(all), Some(claims)) = (&mut s.claims, own.second.claims.take()) {
+                all.extend(claims);
+            }
+            s.idle.push(own);
+            false
+        });
+        desk.answer();
     }
+}
+
+/// What a search found, and its memory.
+struct Found {
+    bracket: Bracket,
+    cost: Cost,
+    /// Whether the second-order method settled it; `None` if that was not tried.
+    settled: Option<bool>,
+    own: Search,
+}
+
+/// One hit; `worth`: whether the second-order method is.
+async fn search(desk: &Desk<'_>, hit: &Asking<'_>, worth: bool, tolerance: Tolerance, mut own: Search) -> Found {
+    let (mut cost, mut settled) = (Cost::default(), None);
+    let bracket = bracket(desk, hit, worth, tolerance, &mut own, &mut settled, &mut cost).await;
+    Found { bracket, cost, settled, own }
+}
+
+async fn bracket(
+    desk: &Desk<'_>,
+    hit: &Asking<'_>,
+    worth: bool,
+    tolerance: Tolerance,
+    own: &mut Search,
+    settled: &mut Option<bool>,
+    cost: &mut Cost,
+) -> Bracket {
+    let Asking { receiver, light, known } = *hit;
+    let surfaces = desk.surfaces();
     let unit = Interval::new(-1.0, 1.0);
     let whole = Fan::towards(receiver.point, light, unit, unit);
-    let fronts = fronts(surfaces, receiver, &whole, work, cost);
+    let fronts = fronts(surfaces, receiver, &whole, &mut desk.work(), cost);
     let query = Query { surfaces, receiver, fronts: &fronts, light };
-    let Scratch { rectangle, second, pieces: arena, ledger, .. } = s;
-    let mut tried = !second::worth(tolerance, second);
-    let mut by_second = |known: &Known, s: &mut second::Scratch, work: &mut Workspace, cost: &mut Cost| {
-        let reach = if tried { None } else { second::reach(&query, &whole, known, work) }?;
-        tried = true;
-        Some(second::fraction(&query, &reach, known, tolerance, s, work, cost))
-    };
-    // A bracket of the second-order method.
+    let Search { rectangle, second, pieces: arena, ledger } = own;
+    // The second-order method may be tried once.
+    let reach = |known: &Known| second::reach(&query, &whole, known, &mut desk.work());
+    // A bracket of it.
     let mut other = [0.0, 1.0];
-    if let Some(found) = by_second(known, second, work, cost) {
+    if worth && let Some(reach) = reach(known) {
+        let found = second::fraction(&query, &reach, known, tolerance, second, desk, cost).await;
+        *settled = Some(found.narrow(tolerance));
         if found.settles(tolerance) {
             return found.bracket(known, tolerance);
         }
@@ -139,7 +236,7 @@ pub fn visible(
         for (part, pieces) in parts.drain(..) {
             rectangles += 1;
             let begin = arena.len();
-            match query.look(part, pieces, arena, rectangle, work, cost) {
+            match query.look(part, pieces, arena, rectangle, &mut desk.work(), cost) {
                 Answer::Dark => ledger.shaded(),
                 Answer::Lit => ledger.lit(area(part)),
                 Answer::Open { lit, open } => ledger.open(part, [lit, open], begin..arena.len()),
@@ -148,10 +245,12 @@ pub fn visible(
         if ledger.unknown() <= tolerance.width || rectangles >= tolerance.rectangles || cost.evaluations >= most {
             break;
         }
-        if rectangles == 1 {
+        if rectangles == 1 && worth && settled.is_none() {
             // What was too long a beam to be proved continuous may have become short.
             let shorter = known.with_pieces(&arena[inherited..]);
-            if let Some(found) = by_second(&shorter, second, work, cost) {
+            if let Some(reach) = reach(&shorter) {
+                let found = second::fraction(&query, &reach, &shorter, tolerance, second, desk, cost).await;
+                *settled = Some(found.narrow(tolerance));
                 other = [found.lo, found.hi];
                 rectangles += found.cells;
                 if found.settles(tolerance) {

@@ -1,13 +1,15 @@
 //! Many questions at once get the answers of one after another, bit for bit, at every operator of the language.
 use crate::containment::Operator;
-use antumbra::eval::{FanPiece, Gradient, Inclusion, RayPiece, Workspace};
+use antumbra::eval::{FanPiece, Gradient, Inclusion, PointJet, RayPiece, Workspace};
 use antumbra::expr::{Axis, Formula};
 use antumbra::geom::{Beam, Box3, Fan, Vec3};
 use antumbra::scene::PRESETS;
 use antumbra::tape::{Clause, Op, Tape};
 use antumbra_interval::Interval;
-use antumbra_interval::affine::{Affine, Dual};
+use antumbra_interval::affine::{Affine, Dual, Form, Jet, SlopeOf};
 use antumbra_interval::lanes::Level;
+use antumbra_interval::lanes::block::Packed;
+use antumbra_interval::quadratic::Quadratic;
 use fastrand::Rng;
 
 /// `op(x - 1/8 y, z^2 + x)` and the like: every operator on operands of both signs, with what vectors do before and after it.
@@ -59,6 +61,58 @@ fn gradient_bits(g: &Gradient) -> Vec<[u64; 2]> {
     std::iter::once(g.value).chain(g.partials).map(bits).collect()
 }
 
+/// A NaN is a NaN: only plain jets know one.
+fn packed_bits<F: Packed>(x: &F) -> Vec<u64> {
+    let bits = |x: f64| if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() };
+    (0..F::COMPONENTS).map(|i| bits(x.component(i))).collect()
+}
+
+/// What the second-order search asks.
+fn forms_agree(
+    count: usize,
+    name: &str,
+    tape: &dyn Inclusion,
+    r: &mut Rng,
+    work: &mut Workspace,
+    fresh: &mut Workspace,
+) {
+    let scale = [1e-3, 0.1, 1.0][r.usize(0..3)];
+    let mut line = |kind: usize| {
+        let error = [0.0, 1e-9][kind % 2];
+        let mut some = || scale * (2.0 * r.f64() - 1.0);
+        let linear = Affine::linear(3.0 * some(), [some(), 0.3 * some(), some()], error);
+        let q = [some(), some(), 0.0, some(), 0.0, some()];
+        let curved = Quadratic::polynomial(linear.centre(), *linear.coefficients(), q, error);
+        let direction = Affine::linear(some(), [0.0, some(), some()], error);
+        let apex = if kind.is_multiple_of(3) { interval(r) } else { Interval::point(r.f64() - 0.5) };
+        (linear, curved, direction, apex)
+    };
+    let lines: Vec<_> = (0..count).map(|k| [line(k), line(k + 1), line(k)]).collect();
+    macro_rules! compare {
+        ($many:ident, $one:ident, $unknown:expr, $of:expr) => {
+            let points: Vec<_> = lines.iter().map(|line| line.map($of)).collect();
+            let mut out = vec![$unknown; count];
+            tape.$many(&points, &mut out, work);
+            for (point, found) in points.iter().zip(&out) {
+                let wanted = tape.$one(*point, fresh);
+                assert_eq!(packed_bits(found), packed_bits(&wanted), "{name}: {found:?}, {wanted:?} at {point:?}");
+            }
+        };
+    }
+    let jet = |value, first| Jet { value, first, second: Affine::ZERO };
+    compare!(quadratics, quadratic, Quadratic::ZERO, |(_, curved, _, _)| curved);
+    compare!(quadratic_slopes, quadratic_slope, Quadratic::ZERO, |(_, value, direction, apex)| {
+        SlopeOf { apex, value, slope: Quadratic::from(direction) }
+    });
+    compare!(jets, jet, Jet::<Affine<3>>::UNKNOWN, |(value, _, direction, _)| jet(value, direction));
+    compare!(jet_slopes, jet_slope, Jet::<Affine<3>>::UNKNOWN, |(value, _, direction, apex)| {
+        SlopeOf { apex, value: jet(value, direction), slope: jet(direction, Affine::ZERO) }
+    });
+    compare!(abouts, about, PointJet::default(), |(value, _, direction, _)| {
+        PointJet { value: value.centre(), first: direction.centre(), second: 0.0 }
+    });
+}
+
 fn agree(name: &str, tape: &dyn Inclusion, r: &mut Rng) {
     Level::all().for_each(|level| agree_on(level, name, tape, r));
 }
@@ -66,6 +120,7 @@ fn agree(name: &str, tape: &dyn Inclusion, r: &mut Rng) {
 fn agree_on(level: Level, name: &str, tape: &dyn Inclusion, r: &mut Rng) {
     let (mut work, mut fresh) = (Workspace::on(level), Workspace::default());
     for count in [1, 2, 3, 7, 8, 9, 63, 64, 65, 130] {
+        forms_agree(count, name, tape, r, &mut work, &mut fresh);
         let eye = Vec3::new(3.0 * r.f64(), [0.0, r.f64()][r.usize(0..2)], 1.0);
         let rays: Vec<RayPiece> = (0..count)
             .map(|_| {

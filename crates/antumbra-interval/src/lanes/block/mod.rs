@@ -8,6 +8,7 @@
 //! **Layout.** `[slot][vector][component][8 lanes]`, 64-byte aligned: an operation reads and writes whole cache lines, one
 //! stream per operand.
 mod kernels;
+mod kinds;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -71,7 +72,8 @@ enum Operation {
     Coordinate,
 }
 
-/// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`] and [`Dual`]: only for these.
+/// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`], [`Dual`], [`PointJet`](crate::PointJet),
+/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes: only for these.
 pub trait Packed: Copy + sealed::Sealed {
     /// Numbers in it.
     const COMPONENTS: usize;
@@ -128,6 +130,7 @@ macro_rules! arithmetic {
         }
     };
 }
+use arithmetic;
 
 impl Packed for Interval {
     const COMPONENTS: usize = 2;

@@ -2,11 +2,12 @@
 use super::policy;
 use super::valid::Valid;
 use crate::eval::{
-    BeamPoint, FanPiece, Gradient, Inclusion, JetPoint, PointJet, QuadraticPoint, RayPiece, ShaftPoint, Workspace,
+    BeamPoint, FanPiece, Gradient, Inclusion, JetPoint, JetSlopePoint, PointJet, QuadraticPoint, QuadraticSlopePoint,
+    RayPiece, ShaftPoint, Workspace,
 };
 use crate::geom::Box3;
 use crate::tape::Tape;
-use antumbra_interval::affine::{Affine, Dual, Jet, Slope, SlopeOf};
+use antumbra_interval::affine::{Affine, Dual, Jet, Slope};
 use antumbra_interval::lanes::block::MOST;
 use antumbra_interval::quadratic::Quadratic;
 use antumbra_interval::{Decorated, Interval};
@@ -254,7 +255,7 @@ impl Inclusion for Regions {
         self.tape(&Box3(point.map(|x| x.range()))).quadratic(point, work)
     }
 
-    fn quadratic_slope(&self, point: [SlopeOf<Interval, Quadratic>; 3], work: &mut Workspace) -> Quadratic {
+    fn quadratic_slope(&self, point: QuadraticSlopePoint, work: &mut Workspace) -> Quadratic {
         self.tape(&Box3(point.map(|x| x.apex.hull(x.value.range())))).quadratic_slope(point, work)
     }
 
@@ -262,13 +263,40 @@ impl Inclusion for Regions {
         self.tape(&Box3(point.map(|x| x.value.range()))).jet(point, work)
     }
 
-    fn jet_slope(&self, point: [SlopeOf<Interval, Jet<Affine<3>>>; 3], work: &mut Workspace) -> Jet<Affine<3>> {
+    fn jet_slope(&self, point: JetSlopePoint, work: &mut Workspace) -> Jet<Affine<3>> {
         self.tape(&Box3(point.map(|x| x.apex.hull(x.value.range())))).jet_slope(point, work)
     }
 
     fn about(&self, point: [PointJet; 3], work: &mut Workspace) -> PointJet {
-        // Rounded numbers, which prove nothing: any tape would do.
-        let at = |x: f64| Interval::try_new(x, x).unwrap_or(Interval::EMPTY);
-        self.tape(&Box3(point.map(|x| at(x.value)))).about(point, work)
+        self.tape(&around(&point)).about(point, work)
     }
+
+    fn quadratics(&self, points: &[QuadraticPoint], out: &mut [Quadratic], work: &mut Workspace) {
+        let region = |point: &QuadraticPoint| Box3(point.map(|x| x.range()));
+        self.ask_all(points, out, region, |tape, points, out| tape.quadratics(points, out, work));
+    }
+
+    fn quadratic_slopes(&self, points: &[QuadraticSlopePoint], out: &mut [Quadratic], work: &mut Workspace) {
+        let region = |point: &QuadraticSlopePoint| Box3(point.map(|x| x.apex.hull(x.value.range())));
+        self.ask_all(points, out, region, |tape, points, out| tape.quadratic_slopes(points, out, work));
+    }
+
+    fn jets(&self, points: &[JetPoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
+        let region = |point: &JetPoint| Box3(point.map(|x| x.value.range()));
+        self.ask_all(points, out, region, |tape, points, out| tape.jets(points, out, work));
+    }
+
+    fn jet_slopes(&self, points: &[JetSlopePoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
+        let region = |point: &JetSlopePoint| Box3(point.map(|x| x.apex.hull(x.value.range())));
+        self.ask_all(points, out, region, |tape, points, out| tape.jet_slopes(points, out, work));
+    }
+
+    fn abouts(&self, points: &[[PointJet; 3]], out: &mut [PointJet], work: &mut Workspace) {
+        self.ask_all(points, out, around, |tape, points, out| tape.abouts(points, out, work));
+    }
+}
+
+/// The point itself: rounded numbers, which prove nothing, so any tape would do.
+fn around(point: &[PointJet; 3]) -> Box3 {
+    Box3(point.map(|x| Interval::try_new(x.value, x.value).unwrap_or(Interval::EMPTY)))
 }

@@ -1,9 +1,9 @@
 //! One rectangle of a light, seen from one hit, to second order.
 use super::policy::{self, CORES, Nearest, Plan, Trial, between};
-use super::slab::{Cell, Convexity, Kind, Slab, State, merged};
-use crate::eval::Workspace;
+use super::slab::{Cell, Convexity, Kind, Looker, Slab, State, merged};
 use crate::geom::Sheet;
 use crate::geom::strips::{self, Areas, Curve, areas};
+use crate::shadow::desk::Desk;
 use crate::trace::Cost;
 use antumbra_interval::Interval;
 use antumbra_interval::quadratic::{Eliminated, Quadratic};
@@ -34,10 +34,6 @@ pub(super) struct Scratch {
     constraints: Vec<Constraint>,
     curves: Vec<Curve>,
     areas: strips::Scratch,
-    /// Plain intervals for long and for short slabs.
-    trials: [Trial; 2],
-    /// Convexity of cores of different sizes.
-    cores: [Trial; CORES.len()],
     /// Evaluations before this cell.
     before: u64,
 }
@@ -59,13 +55,13 @@ enum Settled {
 ///
 /// **Invariant.** On every ray of the cell that is hidden, the function of some open slab is `<= 0` somewhere in it. The slabs
 /// given have it; every step below keeps it.
-pub(super) fn look(
+pub(super) async fn look(
     cell: &Cell<'_>,
     slabs: Range<usize>,
     enough: f64,
     open: &mut Vec<Slab>,
     s: &mut Scratch,
-    work: &mut Workspace,
+    desk: &Desk<'_>,
     cost: &mut Cost,
 ) -> Answer {
     cost.beams += 1;
@@ -81,8 +77,11 @@ pub(super) fn look(
             State::Open => !cell.shape.short(cell.extent(&slab)),
             State::Convex(_) => true,
         };
-        let settled =
-            if search { narrow(cell, &slab, open, s, work, cost) } else { plain(cell, &slab, open, s, work, cost) };
+        let settled = if search {
+            narrow(cell, &slab, open, s, desk, cost).await
+        } else {
+            plain(cell, &slab, open, s, desk, cost).await
+        };
         if let Settled::DarkCell = settled {
             open.truncate(begin);
             return Answer::Dark;
@@ -98,27 +97,27 @@ pub(super) fn look(
 }
 
 /// A slab beside the least value, or a short one: free, dominated, hiding, to be cut, or open.
-fn plain(
+async fn plain(
     cell: &Cell<'_>,
     slab: &Slab,
     open: &mut Vec<Slab>,
     s: &mut Scratch,
-    work: &mut Workspace,
+    desk: &Desk<'_>,
     cost: &mut Cost,
 ) -> Settled {
     let extent = cell.extent(slab);
     if slab.state == State::Outer && extent.lo > Trial::NEAREST {
-        let trial = &mut s.trials[usize::from(cell.shape.short(extent))];
-        if trial.worth() {
-            let free = cell.certainly_free(slab, work, cost);
-            trial.tell(free);
+        let which = usize::from(cell.shape.short(extent));
+        if desk.learned().trials[which].worth() {
+            let free = cell.certainly_free(slab, &mut desk.work(), cost);
+            desk.learned().trials[which].tell(free);
             if free {
                 return Settled::Slab;
             }
         }
     }
     let kind = cell.kind(slab);
-    let form = cell.form(slab, kind, work, cost);
+    let form = cell.form(slab, kind, desk, cost).await;
     let least = form.eliminate();
     if least.certainly_positive() || dominated(&form, kind, &s.constraints) {
         return Settled::Slab;
@@ -148,12 +147,12 @@ fn plain(
 /// The slab is covered by an outer slab below, a core, and an outer slab above, which share their sheets: so every parameter
 /// is in one of them, wherever the sheets are. If the function is proved convex in the core, one sheet of it bounds the
 /// least value.
-fn narrow(
+async fn narrow(
     cell: &Cell<'_>,
     slab: &Slab,
     open: &mut Vec<Slab>,
     s: &mut Scratch,
-    work: &mut Workspace,
+    desk: &Desk<'_>,
     cost: &mut Cost,
 ) -> Settled {
     let part = cell.part;
@@ -161,10 +160,10 @@ fn narrow(
         State::Convex(known) => (known.kind, Some(known.least_at)),
         _ => (cell.kind(slab), None),
     };
-    let about = |at, t| cell.about(slab.surface, searched, at, t, work);
-    let plan = cell.shape.plan(&slab.lo, &slab.hi, start.as_ref(), about);
+    let about = Looker { cell, surface: slab.surface, kind: searched, desk };
+    let plan = cell.shape.plan(&slab.lo, &slab.hi, start.as_ref(), &about).await;
     if !plan.sheet(1.0).is_finite() {
-        return plain(cell, &Slab { state: State::Outer, ..*slab }, open, s, work, cost);
+        return plain(cell, &Slab { state: State::Outer, ..*slab }, open, s, desk, cost).await;
     }
     let least_at = plan.sheet(0.0);
     let (core, convex) = match slab.state {
@@ -173,7 +172,7 @@ fn narrow(
         _ => {
             let whole =
                 Slab { lo: slab.lo.below(plan.slopes(), part), hi: slab.hi.above(plan.slopes(), part), ..*slab };
-            let (core, bend) = core(cell, slab, &whole, &plan, s, work, cost);
+            let (core, bend) = core(cell, slab, &whole, &plan, desk, cost).await;
             if core != *slab && core.hi != whole.hi {
                 s.stack.push(Slab { lo: core.hi, hi: whole.hi, state: State::Outer, ..*slab });
             }
@@ -185,12 +184,12 @@ fn narrow(
     };
     if let Some(convex) = convex {
         let (level, reach) = level(cell, &core, &plan);
-        let least = cell.form(&level, convex.kind, work, cost).eliminate();
+        let least = cell.form(&level, convex.kind, desk, cost).await.eliminate();
         let hides = cell.inside(&level);
         if hides && least.certainly_negative_somewhere() {
             return Settled::DarkCell;
         }
-        let fall = fall(cell.slope(&level, convex.kind, work, cost), convex.bend, reach);
+        let fall = fall(cell.slope(&level, convex.kind, desk, cost).await, convex.bend, reach);
         if fall.is_finite() {
             let least = least.lowered(fall);
             if !least.certainly_positive() {
@@ -214,13 +213,12 @@ fn narrow(
 
 /// The widest part around the expected least value that is proved convex enough, with a lower bound of `g''/2` there; else the
 /// narrowest one that was tried. It is the slab itself, or its ends are those of its parallel cover `whole` or between them.
-fn core(
+async fn core(
     cell: &Cell<'_>,
     slab: &Slab,
     whole: &Slab,
     plan: &Plan,
-    s: &mut Scratch,
-    work: &mut Workspace,
+    desk: &Desk<'_>,
     cost: &mut Cost,
 ) -> (Slab, Option<(Kind, f64)>) {
     let mut last = None;
@@ -235,13 +233,13 @@ fn core(
                 Slab { lo, hi, ..*whole }
             }
         };
-        if last.is_some_and(|(before, _)| before == part) || (k + 1 < CORES.len() && !s.cores[k].worth()) {
+        if last.is_some_and(|(before, _)| before == part) || (k + 1 < CORES.len() && !desk.learned().cores[k].worth()) {
             continue;
         }
         let kind = cell.kind(&part);
-        let bend = cell.bend(&part, kind, work, cost);
+        let bend = cell.bend(&part, kind, desk, cost).await;
         let enough = bend.is_some_and(|bend| plan.bends_enough(bend));
-        s.cores[k].tell(enough);
+        desk.learned().cores[k].tell(enough);
         last = Some((part, bend.map(|bend| (kind, bend))));
         if enough {
             break;

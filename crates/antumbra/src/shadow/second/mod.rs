@@ -16,6 +16,7 @@ mod cell;
 mod policy;
 mod slab;
 
+use super::desk::Desk;
 use super::known::{Known, Part};
 use super::ledger::{Ledger, Node, area};
 use super::rectangle::Query;
@@ -28,6 +29,7 @@ use crate::verdict::Reason;
 use antumbra_interval::Interval;
 use antumbra_interval::round::sub_up;
 use cell::{Answer, look};
+pub(super) use policy::Learned;
 use slab::{Cell, Slab, State};
 
 /// Scratch memory of one thread.
@@ -37,7 +39,6 @@ pub(super) struct Scratch {
     slabs: Vec<Slab>,
     ledger: Ledger<Rest>,
     parts: Vec<Job>,
-    trust: policy::Trust,
     /// Everything that is claimed, if somebody wants to know.
     pub(super) claims: Option<Vec<Claim>>,
 }
@@ -82,6 +83,11 @@ pub(super) struct Fraction {
 }
 
 impl Fraction {
+    /// Whether the bracket is as narrow as was asked for.
+    pub(super) fn narrow(&self, tolerance: Tolerance) -> bool {
+        sub_up(self.hi, self.lo) <= tolerance.width
+    }
+
     /// Whether nothing more is to be done.
     pub(super) fn settles(&self, tolerance: Tolerance) -> bool {
         tolerance.penumbra == Penumbra::Second || sub_up(self.hi, self.lo) <= tolerance.width
@@ -109,23 +115,14 @@ pub(super) fn reach(query: &Query<'_>, whole: &Fan, known: &Known, work: &mut Wo
     query.surfaces.iter().enumerate().map(&mut reach_of).collect()
 }
 
-/// Whether the method is to be tried on the next hit: with `Auto`, not where it has failed of late.
-pub(super) fn worth(tolerance: Tolerance, s: &mut Scratch) -> bool {
-    match tolerance.penumbra {
-        Penumbra::First => false,
-        Penumbra::Second => true,
-        Penumbra::Auto => s.trust.worth(),
-    }
-}
-
 /// The visible fraction, given what is known of the light.
-pub(super) fn fraction(
+pub(super) async fn fraction(
     query: &Query<'_>,
     reach: &[f64],
     known: &Known,
     tolerance: Tolerance,
     s: &mut Scratch,
-    work: &mut Workspace,
+    desk: &Desk<'_>,
     cost: &mut Cost,
 ) -> Fraction {
     let Scratch { cell: scratch, slabs, ledger, parts, claims, .. } = s;
@@ -149,7 +146,7 @@ pub(super) fn fraction(
             let begin = slabs.len();
             let cell = Cell::new(query, reach, part);
             let enough = policy::enough(tolerance.width, area(part)[1]);
-            let answer = look(&cell, from..to, enough, slabs, scratch, work, cost);
+            let answer = look(&cell, from..to, enough, slabs, scratch, desk, cost).await;
             if let Some(claims) = claims {
                 let says = match answer {
                     Answer::Lit => Says::Lit,
@@ -186,7 +183,6 @@ pub(super) fn fraction(
         }
     }
     let [lo, hi] = ledger.bounds();
-    s.trust.tell(sub_up(hi, lo) <= tolerance.width);
     Fraction { lo, hi, cells }
 }
 

@@ -1,9 +1,10 @@
 //! Where to look and where to cut: choices that cost or save time and never touch a proof.
 #![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
-use super::slab::Kind;
+use super::slab::{Kind, Looker};
 use crate::eval::PointJet;
 use crate::geom::strips::Band;
 use crate::geom::{Rect, Sheet, Vec3};
+use crate::shadow::Penumbra;
 use antumbra_interval::Interval;
 
 /// Half thickness of the main slab, in widths of the cell.
@@ -31,6 +32,11 @@ const STEPS: usize = 7;
 const CERTAIN: u32 = 9;
 /// Evaluations for one hit after which planes get their chance, at a tolerance of 1/255.
 const FAIR: f64 = 4000.0;
+
+/// Most hits that are looked at together: enough to fill lanes with each kind of question, few enough to stay in a cache.
+const COMPANY: usize = 32;
+/// How many join when the method has settled one.
+const JOIN: usize = 4;
 
 /// Sizes of a cell, in plain numbers.
 pub(super) struct Shape {
@@ -100,13 +106,7 @@ impl Shape {
 
     /// About the place of the least value between two sheets, and how it moves across the cell. `about` gives values on
     /// rays.
-    pub(super) fn plan(
-        &self,
-        lo: &Sheet,
-        hi: &Sheet,
-        start: Option<&Sheet>,
-        mut about: impl FnMut([f64; 2], f64) -> PointJet,
-    ) -> Plan {
+    pub(super) async fn plan(&self, lo: &Sheet, hi: &Sheet, start: Option<&Sheet>, about: &Looker<'_, '_>) -> Plan {
         let Extent { lo: first, hi: last } = self.extent(lo, hi);
         let length = last - first;
         let (mut t, mut a, mut b) = (0.5 * (first + last), first, last);
@@ -116,7 +116,7 @@ impl Shape {
         let mut g = PointJet::default();
         let mut found = false;
         for _ in 0..STEPS {
-            g = about(self.centre, t);
+            [g] = about.at([self.centre], t).await;
             if g.first > 0.0 {
                 b = t
             } else {
@@ -145,13 +145,15 @@ impl Shape {
         let width = MAIN * self.lateral(t);
         let mut slopes = [0.0; 2];
         if found && g.second > 0.0 && t > first + 0.05 * width && t < last - 0.05 * width {
+            let beside = |k: usize, d: f64| {
+                let mut place = self.centre;
+                place[k] += d * self.half[k];
+                place
+            };
+            let places = [beside(0, 0.5), beside(0, -0.5), beside(1, 0.5), beside(1, -0.5)];
+            let around = about.at(places, t).await.map(|g| g.first);
             for k in 0..2 {
-                let mut slope_at = |d: f64| {
-                    let mut place = self.centre;
-                    place[k] += d * self.half[k];
-                    about(place, t).first
-                };
-                let slope = -(slope_at(0.5) - slope_at(-0.5)) / (2.0 * g.second * self.half[k]);
+                let slope = -(around[2 * k] - around[2 * k + 1]) / (2.0 * g.second * self.half[k]);
                 let most = 2.0 * width / self.half[k];
                 slopes[k] = if slope.is_finite() { slope.max(-most).min(most) } else { 0.0 };
             }
@@ -296,21 +298,57 @@ pub(super) fn fair(width: f64) -> u64 {
 /// Whether the method is worth trying: it has settled hits of late, or it is time to try again. After each failure but the
 /// first two the pause is twice as long.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Trust {
+struct Trust {
     pause: u32,
     failures: u32,
 }
 
 impl Trust {
-    pub(super) fn worth(&mut self) -> bool {
+    fn worth(&mut self) -> bool {
         let worth = self.pause == 0;
         self.pause = self.pause.saturating_sub(1);
         worth
     }
 
-    pub(super) fn tell(&mut self, settled: bool) {
+    fn tell(&mut self, settled: bool) {
         self.failures = if settled { 0 } else { self.failures + 1 };
         self.pause = if self.failures > 2 { 1 << (self.failures.min(6) - 2) } else { 0 };
+    }
+}
+
+/// What searches teach each other: of choices only.
+#[derive(Clone, Copy, Debug, Default)]
+pub(in crate::shadow) struct Learned {
+    trust: Trust,
+    /// Hits that the method has settled.
+    hits: usize,
+    /// Plain intervals for long and for short slabs.
+    pub(super) trials: [Trial; 2],
+    /// Convexity of cores of different sizes.
+    pub(super) cores: [Trial; CORES.len()],
+}
+
+impl Learned {
+    /// Whether the method is to be tried on the next hit: with `Auto`, not where it has failed of late.
+    pub(in crate::shadow) fn worth(&mut self, penumbra: Penumbra) -> bool {
+        match penumbra {
+            Penumbra::First => false,
+            Penumbra::Second => true,
+            Penumbra::Auto => self.trust.worth(),
+        }
+    }
+
+    /// How many hits are to be looked at together: the first one is alone, and so is each one where the method fails.
+    pub(in crate::shadow) fn company(&self) -> usize {
+        if self.trust.failures > 0 { 1 } else { (1 + JOIN * self.hits).min(COMPANY) }
+    }
+
+    /// A hit is done; whether the method settled it, if it was tried.
+    pub(in crate::shadow) fn done(&mut self, settled: Option<bool>) {
+        if let Some(settled) = settled {
+            self.hits += usize::from(settled);
+            self.trust.tell(settled);
+        }
     }
 }
 

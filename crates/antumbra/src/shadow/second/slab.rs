@@ -1,4 +1,5 @@
 //! Slabs of shadow beams between two sheets, and the function over them.
+use super::super::desk::Desk;
 use super::super::rectangle::Query;
 use super::policy::{Extent, Shape};
 use crate::eval::{PointJet, Workspace};
@@ -170,50 +171,52 @@ impl<'a> Cell<'a> {
         if slab.lo.slopes == slab.hi.slopes {
             let half = (Interval::point(slab.hi.k) - Interval::point(slab.lo.k)) * Interval::point(0.5);
             let t = mean + s.mul_interval(half);
-            std::array::from_fn(|k| Quadratic::product_of(&t, &self.fan.direction[k]).add_interval(apex[k]))
+            // No from_fn here and below: its closures are not always inlined.
+            let at = |k: usize| Quadratic::product_of(&t, &self.fan.direction[k]).add_interval(apex[k]);
+            [at(0), at(1), at(2)]
         } else {
             let half = (slab.hi.form(&self.symbols) - slab.lo.form(&self.symbols)).mul_f64(0.5);
             let t = Quadratic::from(mean) + Quadratic::product_of(&half, &s);
-            std::array::from_fn(|k| (t * Quadratic::from(self.fan.direction[k])).add_interval(apex[k]))
+            let at = |k: usize| (t * Quadratic::from(self.fan.direction[k])).add_interval(apex[k]);
+            [at(0), at(1), at(2)]
         }
     }
 
     /// The function over the slab, positive at the front.
-    pub(super) fn form(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Quadratic {
+    pub(super) async fn form(&self, slab: &Slab, kind: Kind, desk: &Desk<'_>, cost: &mut Cost) -> Quadratic {
         cost.evaluations += 1;
         let points = self.points(slab);
-        let function = self.query.surfaces[slab.surface].function;
-        let form = match kind {
-            Kind::Plain => function.quadratic(points, work),
+        let [form] = match kind {
+            Kind::Plain => desk.ask(slab.surface, [points]).await,
             Kind::Slope => {
-                let slopes = std::array::from_fn(|k| SlopeOf {
+                let at = |k: usize| SlopeOf {
                     apex: self.fan.apex[k],
                     value: points[k],
                     slope: Quadratic::from(self.fan.direction[k]),
-                });
-                function.quadratic_slope(slopes, work)
+                };
+                desk.ask(slab.surface, [[at(0), at(1), at(2)]]).await
             }
         };
         if self.negative(slab.surface) { -form } else { form }
     }
 
     /// A lower bound of `g''/2` throughout the slab, on every ray of the cell, if that proves `g` convex in t there.
-    pub(super) fn bend(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Option<f64> {
-        let jet = self.jet(slab, kind, work, cost);
+    pub(super) async fn bend(&self, slab: &Slab, kind: Kind, desk: &Desk<'_>, cost: &mut Cost) -> Option<f64> {
+        let jet = self.jet(slab, kind, desk, cost).await;
         let bend = jet.second.range();
         (jet.first.is_known() && !bend.is_empty() && bend.lo() >= 0.0).then(|| bend.lo())
     }
 
     /// Encloses `g'` on a sheet, on every ray of the cell.
-    pub(super) fn slope(&self, level: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Interval {
-        let jet = self.jet(level, kind, work, cost);
+    pub(super) async fn slope(&self, level: &Slab, kind: Kind, desk: &Desk<'_>, cost: &mut Cost) -> Interval {
+        let jet = self.jet(level, kind, desk, cost).await;
         if jet.second.is_known() { jet.first.range() } else { Interval::ENTIRE }
     }
 
     /// The function over the slab, positive at the front, with its derivatives by t.
     ///
     /// `t = A + B s` with the largest `B` covers the slab.
-    fn jet(&self, slab: &Slab, kind: Kind, work: &mut Workspace, cost: &mut Cost) -> Jet<Affine<3>> {
+    async fn jet(&self, slab: &Slab, kind: Kind, desk: &Desk<'_>, cost: &mut Cost) -> Jet<Affine<3>> {
         cost.evaluations += 1;
         let (lo, hi) = (slab.lo.form(&self.symbols), slab.hi.form(&self.symbols));
         let t = if slab.lo == slab.hi {
@@ -223,18 +226,17 @@ impl<'a> Cell<'a> {
             (lo + hi).mul_f64(0.5) + Affine::symbol(0).mul_f64(reach)
         };
         let direction = &self.fan.direction;
-        let points: [Jet<Affine<3>>; 3] =
-            std::array::from_fn(|k| Jet::line((t * direction[k]).add_interval(self.fan.apex[k]), direction[k]));
-        let function = self.query.surfaces[slab.surface].function;
-        let jet = match kind {
-            Kind::Plain => function.jet(points, work),
+        let at = |k: usize| Jet::line((t * direction[k]).add_interval(self.fan.apex[k]), direction[k]);
+        let points: [Jet<Affine<3>>; 3] = [at(0), at(1), at(2)];
+        let [jet] = match kind {
+            Kind::Plain => desk.ask(slab.surface, [points]).await,
             Kind::Slope => {
-                let slopes = std::array::from_fn(|k| SlopeOf {
+                let at = |k: usize| SlopeOf {
                     apex: self.fan.apex[k],
                     value: points[k],
                     slope: Jet::line(direction[k], Affine::ZERO),
-                });
-                function.jet_slope(slopes, work)
+                };
+                desk.ask(slab.surface, [[at(0), at(1), at(2)]]).await
             }
         };
         if self.negative(slab.surface) { -jet } else { jet }
@@ -252,13 +254,23 @@ impl<'a> Cell<'a> {
         let range = if self.negative(slab.surface) { -range } else { range };
         range.certainly_positive()
     }
+}
 
-    /// About the function on the ray to `(u, v)` at `t`, and its derivatives by t: for choices only.
-    pub(super) fn about(&self, surface: usize, kind: Kind, at: [f64; 2], t: f64, work: &mut Workspace) -> PointJet {
+/// About the function of a kind on rays of a cell, and its derivatives by t: for choices only.
+pub(super) struct Looker<'a, 'd> {
+    pub(super) cell: &'a Cell<'a>,
+    pub(super) surface: usize,
+    pub(super) kind: Kind,
+    pub(super) desk: &'a Desk<'d>,
+}
+
+impl Looker<'_, '_> {
+    /// On the rays to the places `(u, v)`, at `t`.
+    pub(super) async fn at<const K: usize>(&self, places: [[f64; 2]; K], t: f64) -> [PointJet; K] {
+        let Self { cell, surface, kind, desk } = *self;
         let t = super::policy::apart(kind, t);
-        let points = self.shape.line(at, t);
-        let jet = self.query.surfaces[surface].function.about(points, work);
-        super::policy::seen_from_front(jet, kind, t, self.negative(surface))
+        let jets = desk.ask(surface, places.map(|at| cell.shape.line(at, t))).await;
+        jets.map(|jet| super::policy::seen_from_front(jet, kind, t, cell.negative(surface)))
     }
 }
 

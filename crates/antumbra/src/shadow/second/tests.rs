@@ -1,9 +1,10 @@
 //! The steps one by one, on functions of which everything is known.
 use super::cell::{self, Answer, fall, level, look};
-use super::policy::Plan;
+use super::policy::{Learned, Plan};
 use super::slab::{Cell, Convexity, Kind, Slab, State};
 use crate::eval::{Gradient, Inclusion, JetPoint, QuadraticPoint, Workspace};
 use crate::geom::{Box3, Clip, Rect, Sheet, Vec3};
+use crate::shadow::desk::Desk;
 use crate::shadow::ledger::Ledger;
 use crate::shadow::occluders::Front;
 use crate::shadow::rectangle::Query;
@@ -151,6 +152,7 @@ fn a_convex_range_must_not_grow() {
     let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut scratch, mut work, mut cost) = (cell::Scratch::default(), Workspace::default(), Cost::default());
+    let desk = Desk::new(&surfaces, &mut work, Learned::default());
     // g'' > 0 up to z = 0.3845 only: here it is proved, and the valley's floor is at 0.3.
     let (lo, hi) = (Sheet::level(0.05), Sheet::level(0.37));
     let known = Convexity { kind: Kind::Plain, bend: 0.0, least_at: Sheet::level(0.3) };
@@ -164,7 +166,7 @@ fn a_convex_range_must_not_grow() {
         });
         let cell = Cell::new(&query, &[1.0; 2], part);
         let mut open = vec![convex];
-        if let Answer::Open(_) = look(&cell, 0..1, 1e-4, &mut open, &mut scratch, &mut work, &mut cost) {
+        if let Answer::Open(_) = desk.alone(look(&cell, 0..1, 1e-4, &mut open, &mut scratch, &desk, &mut cost)) {
             for slab in &open[1..] {
                 let inside = convex.lo.certainly_at_most(&slab.lo, part) && slab.hi.certainly_at_most(&convex.hi, part);
                 assert!(inside || !matches!(slab.state, State::Convex(_)), "{slab:?} has grown");
@@ -173,7 +175,7 @@ fn a_convex_range_must_not_grow() {
         }
         // What is certified is true at every sampled place, and the certificate ends where convexity does.
         let wide = Slab { hi: Sheet::level(0.40), ..convex };
-        assert_eq!(cell.bend(&wide, Kind::Plain, &mut work, &mut cost), None);
+        assert_eq!(desk.alone(cell.bend(&wide, Kind::Plain, &desk, &mut cost)), None);
     }
     assert!(seen > 20, "{seen}");
 }
@@ -185,11 +187,12 @@ fn bends_and_slopes_are_enclosed() {
     let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut work, mut cost, mut state) = (Workspace::default(), Cost::default(), 3);
+    let desk = Desk::new(&surfaces, &mut work, Learned::default());
     let cell = Cell::new(&query, &[1.0; 2], [Interval::new(-1.0, 0.0), Interval::new(0.5, 1.0)]);
     let (lo, hi) = (Sheet { k: 0.27, slopes: [0.01, 0.0] }, Sheet { k: 0.32, slopes: [0.0, 0.01] });
     let slab = Slab { surface: 1, lo, hi, state: State::Outer };
-    let bend = cell.bend(&slab, Kind::Plain, &mut work, &mut cost).unwrap();
-    let on_sheet = cell.slope(&Slab { hi: lo, ..slab }, Kind::Plain, &mut work, &mut cost);
+    let bend = desk.alone(cell.bend(&slab, Kind::Plain, &desk, &mut cost)).unwrap();
+    let on_sheet = desk.alone(cell.slope(&Slab { hi: lo, ..slab }, Kind::Plain, &desk, &mut cost));
     let (mut least, mut slopes) = (f64::INFINITY, Interval::EMPTY);
     for _ in 0..2000 {
         let (u, v) = (0.5 * random(&mut state) - 0.5, 0.25 * random(&mut state) + 0.75);
@@ -275,6 +278,7 @@ fn crossing_sheets_enclose_what_lies_between() {
     let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut work, mut cost) = (Workspace::default(), Cost::default());
+    let desk = Desk::new(&surfaces, &mut work, Learned::default());
     let part = [Interval::new(-0.5, 0.25), Interval::new(0.0, 1.0)];
     let cell = Cell::new(&query, &[1.0; 2], part);
     let mut state = 9;
@@ -283,7 +287,7 @@ fn crossing_sheets_enclose_what_lies_between() {
         (Sheet { k: 0.3, slopes: [0.2, 0.1] }, Sheet { k: 0.35, slopes: [-0.2, 0.0] }),
     ] {
         let slab = Slab { surface: 1, lo, hi, state: State::Outer };
-        let form = cell.form(&slab, Kind::Plain, &mut work, &mut cost);
+        let form = desk.alone(cell.form(&slab, Kind::Plain, &desk, &mut cost));
         for _ in 0..500 {
             let [s, a, b] = [random(&mut state), random(&mut state), random(&mut state)];
             let (u, v) = (-0.125 + 0.375 * a, 0.5 + 0.5 * b);

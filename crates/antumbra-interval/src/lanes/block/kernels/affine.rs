@@ -28,7 +28,7 @@ impl<V: Vector, const N: usize> AffineOf<V, N> {
 
     /// `s + |a_0| + |a_1| + ...`, from the left.
     #[inline(always)]
-    fn and_magnitudes(a: &[V; N], mut s: V) -> V {
+    pub(super) fn and_magnitudes(a: &[V; N], mut s: V) -> V {
         let mut i = 0;
         while i < N {
             s = s.add(a[i].abs());

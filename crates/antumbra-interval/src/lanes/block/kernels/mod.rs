@@ -18,13 +18,44 @@ mod affine;
 mod choice;
 mod curve;
 mod dual;
+mod forms;
 mod interval;
+mod slopes;
 
 pub(super) use affine::AffineOf;
 pub(super) use dual::DualOf;
+pub(super) use forms::{JetOf, PointJetOf, QuadraticOf};
 pub(super) use interval::IntervalOf;
+pub(super) use slopes::SlopeLanes;
 
 use super::vector::{Eight, Vector};
+
+/// Operations that are left to the scalar operators.
+macro_rules! left_to_scalars {
+    () => {
+        #[inline(always)]
+        fn div(self, _: Self) -> (Self, V::Mask) {
+            (self, never::<V>())
+        }
+        #[inline(always)]
+        fn sqrt(self) -> (Self, V::Mask) {
+            (self, never::<V>())
+        }
+        #[inline(always)]
+        fn abs(self) -> (Self, V::Mask) {
+            (self, never::<V>())
+        }
+        #[inline(always)]
+        fn min(self, _: Self) -> (Self, V::Mask) {
+            (self, never::<V>())
+        }
+        #[inline(always)]
+        fn max(self, _: Self) -> (Self, V::Mask) {
+            (self, never::<V>())
+        }
+    };
+}
+use left_to_scalars;
 
 /// Eight numbers of one kind. A result comes with the lanes in which it is the scalar operator's; the others are done again.
 pub trait Kernel<V: Vector>: Copy {
