@@ -176,7 +176,7 @@ fn functions_and_intervals_stay_in_32_bits() {
 fn pictures_in_64_bits_are_proved_without_contradictions() {
     let Some(gpu) = gpu() else { return };
     let side = 64;
-    for name in ["chubs", "links"] {
+    for name in ["chubs", "mcmullen"] {
         let scene = named(name).unwrap().unwrap();
         let objects = scene.objects.iter();
         let surfaces: Vec<Surface<'_>> =

@@ -284,7 +284,7 @@ fn the_numbers_of_a_picture_are_chosen_by_measurement() {
     if !gpu.has_double() {
         return;
     }
-    let large = share("links", 160);
+    let large = share("mcmullen", 160);
     let [single, double] = large.measured.unwrap();
     assert!(single.seconds > 0.0 && double.seconds > 0.0, "{large:?}");
     assert!(double.left < single.left, "{large:?}");
