@@ -1,7 +1,7 @@
 //! Other forms of formulas: the same real function on the same domain, and a choice among them that is deterministic.
 use antumbra::eval::{Inclusion, Workspace};
 use antumbra::expr::{Axis, Binary, Formula, Node, Unary, Writing};
-use antumbra::geom::{Box3, Clip};
+use antumbra::geom::{Box3, Clip, Vec3};
 use antumbra::render::{RenderSpec, Renderer, RunSpec};
 use antumbra::scene::{GALLERY, Object, PRESETS, Scene, file_named, named};
 use antumbra::tape::Tape;
@@ -262,6 +262,29 @@ fn bad_input_stays_small_and_right() {
             Object::parse(text, Clip::Box(Box3::cube(1.5))).unwrap();
         }
     }
+    // Exponents that do not fit into those of formulas.
+    for text in [
+        "x^1000000000 y x^1000000000 y x^1000000000 - z",
+        "(x^2 + 1)^1000000000 y (x^2 + 1)^999999999 y (x^2 + 1)^999999998 - z",
+    ] {
+        let formula = parse(text);
+        let value = |f: &Formula| {
+            let tape = Tape::compile(f).unwrap();
+            let at = |x: f64| tape.range(&Vec3::new(x, 0.5, 3.0).to_box(), &mut Workspace::default());
+            [at(1.0), at(-1.0), at(0.0)]
+        };
+        let wanted = value(&formula);
+        for (writing, form) in formula.forms() {
+            let pairs = value(&form).into_iter().zip(wanted);
+            pairs.for_each(|(a, b)| assert!(a.possibly_intersects(b), "{text}, {writing}: {form}"));
+        }
+    }
+    // Sums whose terms are many for each operation.
+    let primes = (3..700_u32).filter(|n| (2..*n).all(|k| n % k != 0));
+    let waves: Vec<String> = primes.take(115).map(|p| format!("sin((x + y + z)^7/{p})")).collect();
+    let formula = parse(&waves.join(" + "));
+    let nodes = formula.graph().nodes().len();
+    assert!(formula.forms().iter().all(|(_, form)| form.graph().nodes().len() <= 6 * nodes + 200), "{nodes}");
     assert!(parse("x").forms().iter().all(|(_, form)| form.to_string() == "x"));
     assert!(parse("0 x + 3").forms().iter().all(|(_, form)| form.to_string() == "3"));
 }

@@ -53,7 +53,9 @@ struct Source {
 
 impl std::fmt::Debug for Object {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        f.debug_struct("Object").field("text", &self.text).field("clip", &self.clip).finish_non_exhaustive()
+        let mut all = f.debug_struct("Object");
+        all.field("text", &self.text).field("clip", &self.clip).field("writing", &self.writing());
+        all.finish_non_exhaustive()
     }
 }
 

@@ -7,7 +7,7 @@ use crate::eval::{Inclusion, JetPoint, JetSlopePoint, PointJet, QuadraticPoint, 
 use crate::trace::Surface;
 use antumbra_interval::affine::{Affine, Jet};
 use antumbra_interval::quadratic::Quadratic;
-use std::cell::{RefCell, RefMut};
+use std::cell::{Cell, RefCell, RefMut};
 use std::pin::Pin;
 use std::task::{Context, Poll};
 
@@ -18,6 +18,8 @@ pub(super) struct Desk<'a> {
     learned: RefCell<Learned>,
     /// One for each surface.
     piles: Vec<Piles>,
+    /// How many are over.
+    round: Cell<u64>,
 }
 
 /// Questions of one kind about one surface, and the answers of the round before.
@@ -94,7 +96,7 @@ impl<Q: Question> Pile<Q, Q::Answer> {
 impl<'a> Desk<'a> {
     pub(super) fn new(surfaces: &'a [Surface<'a>], work: &'a mut Workspace, learned: Learned) -> Self {
         let piles = surfaces.iter().map(|_| Piles::default()).collect();
-        Self { surfaces, work: RefCell::new(work), learned: RefCell::new(learned), piles }
+        Self { surfaces, work: RefCell::new(work), learned: RefCell::new(learned), piles, round: Cell::new(0) }
     }
 
     pub(super) fn surfaces(&self) -> &'a [Surface<'a>] {
@@ -117,7 +119,7 @@ impl<'a> Desk<'a> {
         let mut asked = pile.borrow_mut();
         let first = asked.questions.len();
         asked.questions.extend(questions);
-        Wait { pile, first, waited: false }
+        Wait { pile, first, round: &self.round, asked: self.round.get() }
     }
 
     /// Answers what has been asked. Every search that asked must be polled once before the next round.
@@ -126,6 +128,7 @@ impl<'a> Desk<'a> {
         for (surface, piles) in self.surfaces.iter().zip(&self.piles) {
             piles.answer(surface.function, &mut work);
         }
+        self.round.set(self.round.get() + 1);
     }
 }
 
@@ -147,16 +150,20 @@ impl Desk<'_> {
 pub(super) struct Wait<'d, Q: Question, const K: usize> {
     pile: &'d RefCell<Pile<Q, Q::Answer>>,
     first: usize,
-    waited: bool,
+    /// Rounds that are over, now and when it was asked.
+    round: &'d Cell<u64>,
+    asked: u64,
 }
 
 impl<Q: Question, const K: usize> Future for Wait<'_, Q, K> {
     type Output = [Q::Answer; K];
-    fn poll(mut self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<Self::Output> {
-        if !self.waited {
-            self.waited = true;
+    /// Panics where its round is over for long: what stands there now are answers to others.
+    fn poll(self: Pin<&mut Self>, _: &mut Context<'_>) -> Poll<Self::Output> {
+        let rounds = self.round.get() - self.asked;
+        if rounds == 0 {
             return Poll::Pending;
         }
+        assert_eq!(rounds, 1, "an answer is taken in the round after the question");
         let pile = self.pile.borrow();
         Poll::Ready(std::array::from_fn(|k| pile.answers[self.first + k]))
     }

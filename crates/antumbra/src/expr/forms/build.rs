@@ -26,10 +26,12 @@ pub(super) struct Builder<'a> {
     /// Where nodes of the source are in the graph that is built.
     place: Vec<Option<NodeId>>,
     limit: Limit,
+    /// Nodes of the graph that is built at most.
+    most_nodes: usize,
 }
 
 /// The formula of an expansion, written in that style: the same real function, as every step is an identity of polynomials with
-/// exact coefficients.
+/// exact coefficients. `None` where it would have many times more operations than the source.
 pub(super) fn write(
     source: &Graph,
     root: NodeId,
@@ -37,9 +39,15 @@ pub(super) fn write(
     needed: &[bool],
     style: Style,
     most: usize,
-) -> (Graph, NodeId) {
-    let mut builder =
-        Builder { source, style, graph: Graph::new(true), place: vec![None; needed.len()], limit: Limit::new(most) };
+) -> Option<(Graph, NodeId)> {
+    let mut builder = Builder {
+        source,
+        style,
+        graph: Graph::new(true),
+        place: vec![None; needed.len()],
+        limit: Limit::new(most),
+        most_nodes: 6 * source.nodes().len() + 100,
+    };
     for i in (0..needed.len()).filter(|&i| needed[i]) {
         let id = source.id(i);
         builder.place[i] = Some(match expansion.of(id) {
@@ -51,7 +59,7 @@ pub(super) fn write(
         });
     }
     let root = placed(&builder.place, root.index());
-    (builder.graph, root)
+    (!builder.is_full()).then_some((builder.graph, root))
 }
 
 fn placed(place: &[Option<NodeId>], index: usize) -> NodeId {
@@ -65,6 +73,10 @@ impl Builder<'_> {
     /// Recursion: what goes down has fewer terms, or as many of lower degree without their common factor, or is a square's root: some
     /// hundred levels at most.
     fn sum(&mut self, p: &Polynomial) -> NodeId {
+        if self.is_full() {
+            // What is written from here on is thrown away.
+            return self.graph.integer(0);
+        }
         let mut terms = p.terms();
         let (first, second) = (terms.next(), terms.next());
         match (first, second) {
@@ -93,6 +105,10 @@ impl Builder<'_> {
         let (negative, inner) = self.signed(&quotient);
         let product = self.graph.binary(Binary::Mul, power, inner);
         self.with_rest((negative, product), &rest)
+    }
+
+    fn is_full(&self) -> bool {
+        self.graph.nodes().len() > self.most_nodes
     }
 
     fn square(&mut self, p: &Polynomial) -> Option<NodeId> {
@@ -214,8 +230,10 @@ impl Builder<'_> {
 
     fn power(&mut self, atom: Atom, n: u32) -> NodeId {
         let base = placed(&self.place, atom as usize);
-        // Exponents are below 2^30.
-        self.graph.powi(base, n as i32)
+        match i32::try_from(n) {
+            Ok(n) => self.graph.powi(base, n),
+            Err(_) => unreachable!("monomials have smaller exponents"),
+        }
     }
 
     fn is_constant(&self, atom: Atom) -> bool {

@@ -78,8 +78,9 @@ pub(super) fn forms(formula: &Formula) -> Vec<(Writing, Formula)> {
             continue;
         }
         let mut write = |writing: Writing, style: Style| {
-            let (graph, root) = build::write(graph, root, &expansion, &needed, style, most);
-            forms.push((writing, Formula::new(graph, root).compacted()));
+            if let Some((graph, root)) = build::write(graph, root, &expansion, &needed, style, most) {
+                forms.push((writing, Formula::new(graph, root).compacted()));
+            }
         };
         let plain = Style { order: X, strict: false, squares: false, pairs: true };
         if depth == Depth::Sums {

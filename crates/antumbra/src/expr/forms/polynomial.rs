@@ -10,6 +10,9 @@ const MOST_POWER: u32 = 16;
 /// Operations on coefficients that an expansion, or writing a form, may take: some hundred microseconds.
 const WORK: usize = 10_000;
 
+/// Exponents are less: they fit into those of formulas.
+const MOST_EXPONENT: u32 = 1 << 30;
+
 /// What may still be done.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Limit {
@@ -53,7 +56,7 @@ impl Monomial {
             let (power, skip) = match a.cmp(&b) {
                 std::cmp::Ordering::Less => ((a, m), (1, 0)),
                 std::cmp::Ordering::Greater => ((b, n), (0, 1)),
-                std::cmp::Ordering::Equal => ((a, m.checked_add(n)?), (1, 1)),
+                std::cmp::Ordering::Equal => ((a, m.checked_add(n).filter(|m| *m < MOST_EXPONENT)?), (1, 1)),
             };
             product.push(power);
             (left, right) = (&left[skip.0..], &right[skip.1..]);
@@ -64,7 +67,7 @@ impl Monomial {
     }
 
     fn power(&self, n: u32) -> Option<Self> {
-        let powers = self.0.iter().map(|&(atom, m)| Some((atom, m.checked_mul(n).filter(|m| *m < 1 << 30)?)));
+        let powers = self.0.iter().map(|&(atom, m)| Some((atom, m.checked_mul(n).filter(|m| *m < MOST_EXPONENT)?)));
         powers.collect::<Option<_>>().map(Self)
     }
 
