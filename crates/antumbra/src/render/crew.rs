@@ -3,6 +3,9 @@ use super::{Error, RunSpec};
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
+/// Bytes of stack of a thread: searches in lockstep have large states, and where nothing is optimised they are copied often.
+const STACK: usize = 16 << 20;
+
 /// Tells the time that has passed since some moment that stays the same; it never goes back.
 pub type Clock = fn() -> Duration;
 
@@ -29,7 +32,7 @@ impl RunSpec {
         if cfg!(target_family = "wasm") {
             return Ok(Crew::Global);
         }
-        let builder = rayon::ThreadPoolBuilder::new().num_threads(self.threads.unwrap_or(0));
+        let builder = rayon::ThreadPoolBuilder::new().stack_size(STACK).num_threads(self.threads.unwrap_or(0));
         builder.build().map(Crew::Own).map_err(|e| Error::Threads(e.to_string()))
     }
 }
