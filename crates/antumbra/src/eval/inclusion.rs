@@ -210,7 +210,11 @@ pub fn centred_range(f: &dyn Inclusion, region: &Box3, work: &mut Workspace) -> 
     }
     let mid = region.mid().to_box();
     let centre = f.range(&mid, work);
-    let slope = f.gradient(region, work).partials;
+    centred(region, &mid, centre, f.gradient(region, work).partials)
+}
+
+/// The same of a function that is continuous on the box, with its value in the middle and its slopes.
+pub(super) fn centred(region: &Box3, mid: &Box3, centre: Interval, slope: [Interval; 3]) -> Interval {
     if slope.iter().any(|s| s.is_empty() || s.magnitude() == f64::INFINITY) {
         return Interval::ENTIRE;
     }

@@ -1,4 +1,5 @@
 //! Of many boxes those in which a function may be 0.
+use super::inclusion::centred;
 use super::{Gradient, Inclusion, Workspace, centred_range};
 use crate::geom::Box3;
 use antumbra_interval::Interval;
@@ -32,14 +33,6 @@ impl Sieve {
             middles.next().is_none_or(|(mid, at)| centred(region, mid, at.value, gradient.partials).possibly_zero())
         });
     }
-}
-
-/// The mean value form of a function that is continuous on the box, as [`centred_range`] has it.
-fn centred(region: &Box3, mid: &Box3, centre: Interval, slope: [Interval; 3]) -> Interval {
-    if slope.iter().any(|s| s.is_empty() || s.magnitude() == f64::INFINITY) {
-        return Interval::ENTIRE;
-    }
-    (0..3).fold(centre, |sum, i| sum + slope[i] * (region[i] - mid[i]))
 }
 
 /// Keeps some boxes, and their gradients.
