@@ -123,6 +123,107 @@ fn elimination_is_exact_up_to_its_error() {
     assert!(used > 10_000, "{used}");
 }
 
+/// Numbers of which one in some rules the form along `s`: slopes for zeros, squares for turns.
+fn along_s(r: &mut Random, slope: f64, square: f64, across: f64) -> Quadratic {
+    let mut number = |scale: f64| scale * r.signed();
+    let (c, l) = (number(0.5 * (slope + square)), [number(slope), number(across), number(across)]);
+    let q = [number(square), number(across), number(across), number(across), number(across), number(across)];
+    Quadratic::polynomial(c, l, q, number(1e-3).abs())
+}
+
+/// On a line the function, whatever it is within the error, is negative before the zeros and positive behind them, or the other way round.
+#[test]
+fn zeros_on_a_line_hold_every_zero_and_the_signs_around_them_differ() {
+    let mut r = Random(4);
+    let (mut found, mut tight) = (0, 0);
+    for round in 0..30_000 {
+        let x = if round % 8 == 0 { form(&mut r, true) } else { along_s(&mut r, 1.0, 0.3, 0.05) };
+        let [_, a, b] = r.symbols::<3>();
+        // The place is known up to a little.
+        let wide = |at: f64, d: f64| Interval::new(at - d, at + d).intersection(Interval::new(-1.0, 1.0));
+        let d = [0.0, 1e-12, 1e-3][round % 3];
+        let Some(zero) = x.zero_along(wide(a, d), wide(b, d)) else { continue };
+        found += 1;
+        let sign = |s: f64, w: f64| {
+            let value = member(&x, &[s, a, b], w);
+            if value.is_zero() {
+                0
+            } else if value > exact(0.0) {
+                1
+            } else {
+                -1
+            }
+        };
+        let behind = if zero.rises { 1 } else { -1 };
+        let (lo, hi) = (zero.at.lo(), zero.at.hi());
+        assert!(-1.0 < lo && hi < 1.0, "{zero:?}");
+        for w in [-1.0, 1.0, r.symbol()] {
+            for k in 0..4 {
+                let u = f64::from(k) / 4.0;
+                let (before, after) = (-1.0 + u * (lo + 1.0), hi + (1.0 - u) * (1.0 - hi));
+                assert!(before >= lo || sign(before, w) == -behind, "{x:?} at {before}, {a}, {b}: {zero:?}");
+                assert!(after <= hi || sign(after, w) == behind, "{x:?} at {after}, {a}, {b}: {zero:?}");
+            }
+            let (below, above) = (lo.next_down(), hi.next_up());
+            assert!(sign(below, w) == -behind && sign(above, w) == behind, "{x:?} at {a}, {b}: {zero:?}");
+        }
+        // As wide as the error makes it, and hardly more.
+        let least = x.linear()[0].abs() - 2.0 * x.quadratic()[0].abs() - 0.1;
+        tight += u32::from(d == 0.0 && least > 0.1 && zero.at.width() <= 2.0 * x.error() / least * 1.01 + 1e-12);
+    }
+    assert!(found > 5000 && tight > 1000, "{found} {tight}");
+}
+
+#[test]
+fn a_zero_is_not_claimed_where_the_function_may_not_change_its_sign() {
+    let line = |c: f64, l: f64, h: f64, e: f64| {
+        Quadratic::polynomial(c, [l, 0.0, 0.0], [h, 0.0, 0.0, 0.0, 0.0, 0.0], e)
+            .zero_along(Interval::ZERO, Interval::ZERO)
+    };
+    assert!(line(0.0, 1.0, 0.0, 0.5).is_some());
+    assert!(line(0.0, 1.0, 0.0, 1.0).is_none(), "0 at an end");
+    assert!(line(1.0, 1.0, 0.0, 0.0).is_none(), "0 at an end");
+    assert!(line(2.0, 1.0, 0.0, 0.0).is_none(), "0 nowhere");
+    assert!(line(0.0, 1.0, 0.6, 0.0).is_none(), "not monotone");
+    assert!(line(0.0, 0.0, 0.0, 0.0).is_none() && line(f64::NAN, 1.0, 0.0, 0.0).is_none());
+    assert!(Quadratic::UNKNOWN.zero_along(Interval::ZERO, Interval::ZERO).is_none());
+    let x = Quadratic::from(Affine::<3>::symbol(0));
+    for nowhere in [Interval::EMPTY, Interval::ENTIRE, Interval::point(2.0)] {
+        assert!(x.zero_along(nowhere, Interval::ZERO).is_none(), "{nowhere:?}");
+    }
+}
+
+#[test]
+fn around_a_turn_the_function_has_one_sign() {
+    let mut r = Random(5);
+    let (mut cut, mut nowhere) = (0, 0);
+    for round in 0..30_000 {
+        let x = if round % 8 == 0 { form(&mut r, true) } else { along_s(&mut r, 0.4, 1.0, 0.03) };
+        let Some(turn) = x.turn() else { continue };
+        cut += u32::from(turn.zeros.width() < 1.0);
+        nowhere += u32::from(turn.zeros.is_empty());
+        for _ in 0..8 {
+            let p = r.symbols::<3>();
+            if turn.zeros.contains(p[0]) {
+                continue;
+            }
+            let value = member(&x, &p, r.symbol());
+            let zero = exact(0.0);
+            let holds = if turn.positive { value > zero } else { value < zero };
+            assert!(holds, "{x:?} at {p:?}: {turn:?}");
+        }
+    }
+    assert!(cut > 5000 && nowhere > 100, "{cut} {nowhere}");
+    assert!(Quadratic::UNKNOWN.turn().is_none() && Quadratic::from(Affine::<3>::symbol(0)).turn().is_none());
+    // (s - 1/2)^2 + a/100, which is 0 up to 1/10 from there.
+    let x = Quadratic::polynomial(0.25, [-1.0, 0.01, 0.0], [1.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.0);
+    let zeros = x.turn().unwrap().zeros;
+    assert!(
+        zeros.lo() <= 0.4 && zeros.lo() > 0.4 - 1e-12 && zeros.hi() >= 0.6 && zeros.hi() < 0.6 + 1e-12,
+        "{zeros:?}"
+    );
+}
+
 #[test]
 fn what_is_too_large_is_unknown() {
     for bad in [f64::NAN, f64::INFINITY, 1e302] {

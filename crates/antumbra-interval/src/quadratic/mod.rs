@@ -12,8 +12,10 @@
 pub(crate) mod arith;
 mod eliminate;
 mod functions;
+mod zero;
 
 pub use eliminate::{Eliminated, Paraboloid};
+pub use zero::{Turn, Zero};
 
 use crate::Interval;
 use crate::affine::{Affine, LARGE, TINY, U, centre_radius, overflow};

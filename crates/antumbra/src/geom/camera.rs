@@ -89,6 +89,30 @@ impl Film {
         ]
     }
 
+    /// What symbol 1 of the fan of a window of the film ([`Film::fan_of`]), of which `x` are the film coordinates across, is on the centre rays of
+    /// a column of pixels in it.
+    #[must_use]
+    pub fn column_symbol(&self, x: Interval, column: usize) -> Interval {
+        Self::symbol(x, Self::middle(column, self.width))
+    }
+
+    /// What symbol 2 is on those of a row of pixels; `y` are the film coordinates upwards.
+    #[must_use]
+    pub fn row_symbol(&self, y: Interval, row: usize) -> Interval {
+        Self::symbol(y, -Self::middle(row, self.height))
+    }
+
+    /// The symbol that is -1 at one end of the window and 1 at the other, at a place in it.
+    fn symbol(window: Interval, at: Interval) -> Interval {
+        let [lo, hi] = [window.lo(), window.hi()].map(Interval::point);
+        (((at - lo) + (at - hi)) / (hi - lo)).intersection(Interval::new(-1.0, 1.0))
+    }
+
+    /// Enclosure of the film coordinate of the middle of pixel number `k` of `n`.
+    fn middle(k: usize, n: usize) -> Interval {
+        Interval::point((2 * k + 1) as f64) / Interval::point(n as f64) - Interval::ONE
+    }
+
     /// The beam of one pixel: it contains every ray of the pixel's area (paper, section 3).
     #[must_use]
     pub fn beam(&self, column: usize, row: usize) -> Beam {
@@ -102,13 +126,16 @@ impl Film {
         self.sub_ray(column, row, 0, 0, 1)
     }
 
+    /// Film coordinates of the middle of part `(i, j)` of the `n x n` parts of a pixel; `j` counts downwards.
+    #[must_use]
+    pub fn place(&self, column: usize, row: usize, i: usize, j: usize, n: usize) -> [Interval; 2] {
+        [Self::middle(column * n + i, self.width * n), -Self::middle(row * n + j, self.height * n)]
+    }
+
     /// The ray through the middle of part `(i, j)` of the `n x n` parts of a pixel, thin up to rounding.
     #[must_use]
     pub fn sub_ray(&self, column: usize, row: usize, i: usize, j: usize, n: usize) -> Beam {
-        let middle = |k: usize, part: usize, count: usize| {
-            Interval::point((2 * (k * n + part) + 1) as f64) / Interval::point((count * n) as f64) - Interval::ONE
-        };
-        let (x, y) = (middle(column, i, self.width), -middle(row, j, self.height));
+        let [x, y] = self.place(column, row, i, j, n);
         Beam { origin: self.camera.eye, direction: self.directions(x, y) }
     }
 }

@@ -50,7 +50,7 @@ pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> Gri
         .collect();
     let ray = |(k, beam): (usize, &Beam)| {
         let known: &Known = &open[k / RAYS];
-        Ray { beam: *beam, open: &known.open, inside: known.inside }
+        Ray { beam: *beam, open: &known.open, inside: known.inside, bracket: None }
     };
     let asked: Vec<Ray<'_>> = beams.iter().enumerate().map(ray).collect();
     let mut met: Vec<(usize, Meeting)> = Vec::with_capacity(beams.len());

@@ -7,6 +7,7 @@ mod book;
 mod by_paper;
 mod by_proof;
 mod coloring;
+mod coverage;
 mod crease;
 mod crew;
 mod develop;

@@ -4,19 +4,22 @@
 //! evaluations come in batches. No search knows of its neighbours, hence all results and costs are those of one pixel
 //! after another.
 use super::by_proof::{BLOCK, Block, indices};
+use super::coverage::{Looking, Part, Window, outward};
 use super::given::{Given, GivenPixel};
 use super::pixel::{Edge, Hit, Known, Pixel};
 use super::spare::Scratch;
 use super::task::{Asked, Task};
 use crate::eval::Occupancy;
-use crate::geom::{Beam, Fan};
+use crate::geom::{Beam, Fan, Film};
 use crate::shadow::Receiver;
-use crate::trace::{Cost, Effort, Frustum, Known as Open, Meeting, Piece, Ray, Surface, first_meetings, narrow};
+use crate::trace::{
+    Bracket, Cost, Effort, Frustum, Known as Open, Meeting, Patch, Piece, Ray, Surface, first_meetings, narrow, patches,
+};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
 
 /// Blocks up to this side whose frustum is covered by one simple piece are not divided further.
-const SIMPLE: usize = 8;
+const SIMPLE: usize = 4;
 /// A pixel that an edge crosses is divided this often, for the bounds of its coverage.
 const COVERAGE_LEVELS: u32 = 2;
 /// Cosine between normals within a pixel from which it is shown as one surface.
@@ -30,7 +33,9 @@ const CORNERS: [(usize, usize); 4] = [(0, 0), (EDGE_RAYS - 1, 0), (0, EDGE_RAYS 
 struct Node {
     block: Block,
     open: Open,
-    /// Of its frustum alone.
+    /// What its rays meet, if that is one patch.
+    patch: Option<Patch>,
+    /// Of its frustum alone, with its patch.
     cost: Cost,
     /// Its parts in the order of the picture; empty for a leaf.
     children: std::ops::Range<usize>,
@@ -42,9 +47,12 @@ struct Sight<'a> {
     row: usize,
     open: &'a Open,
     ray: Beam,
+    bracket: Option<Bracket>,
     pixel: Pixel,
     /// Another surface in front of what the centre ray meets.
-    thin: Option<Hit>,
+    thin: Option<Box<Hit>>,
+    /// Where its parts are, if it was divided.
+    parts: Option<usize>,
     stage: Stage,
 }
 
@@ -86,12 +94,18 @@ pub(super) fn primary(
     if pass.all_given(whole) {
         return (out, Occupancy::default());
     }
-    let nodes = pass.divide(whole);
+    let mut nodes = pass.divide(whole);
+    pass.patches(&mut nodes);
     let mut sights = pass.centres(&nodes);
-    pass.coverages(&mut sights);
-    pass.corners(&mut sights);
-    pass.edges(&mut sights);
-    out.extend(in_order(task, &nodes, sights).into_iter().filter(|pixel| !is_given(given, pixel.index)));
+    let parts = pass.coverages(&mut sights);
+    pass.corners(&mut sights, &parts);
+    pass.edges(&mut sights, &parts);
+    out.reserve(BLOCK * BLOCK);
+    in_order(task, &nodes, sights, |pixel| {
+        if !is_given(given, pixel.index) {
+            out.push(pixel);
+        }
+    });
     (out, scratch.work.take_occupancy())
 }
 
@@ -101,17 +115,17 @@ fn is_given(given: Option<&Given>, index: usize) -> bool {
 }
 
 /// All pixels, a block's quarter after the other. What a frustum costs is booked on the first pixel below it.
-fn in_order(task: &Task, nodes: &[Node], mut sights: Vec<Sight<'_>>) -> Vec<Pixel> {
+fn in_order(task: &Task, nodes: &[Node], mut sights: Vec<Sight<'_>>, mut found: impl FnMut(Pixel)) {
     const NONE: usize = usize::MAX;
-    let mut found = vec![NONE; BLOCK * BLOCK];
+    let mut seen = vec![NONE; BLOCK * BLOCK];
     let slot = |index: usize| {
         let (column, row) = task.place(index);
         row % BLOCK * BLOCK + column % BLOCK
     };
     for (k, sight) in sights.iter().enumerate() {
-        found[slot(sight.pixel.index)] = k;
+        seen[slot(sight.pixel.index)] = k;
     }
-    let (mut out, mut owed, mut stack) = (Vec::with_capacity(BLOCK * BLOCK), Cost::default(), vec![0]);
+    let (mut owed, mut stack) = (Cost::default(), vec![0]);
     while let Some(k) = stack.pop() {
         let node = &nodes[k];
         owed += node.cost;
@@ -120,16 +134,14 @@ fn in_order(task: &Task, nodes: &[Node], mut sights: Vec<Sight<'_>>) -> Vec<Pixe
             for index in indices(task, node.block) {
                 // A pixel that nobody looked at is empty only if its frustum is.
                 let none = || node.open.certainly_empty().then(|| empty(index));
-                let seen = sights
-                    .get_mut(found[slot(index)])
-                    .map(|sight| Pixel { edge: sight.pixel.edge.take(), ..sight.pixel });
-                let Some(mut pixel) = seen.or_else(none) else { continue };
+                let sight = sights.get_mut(seen[slot(index)]);
+                let sight = sight.map(|sight| Pixel { edge: sight.pixel.edge.take(), ..sight.pixel });
+                let Some(mut pixel) = sight.or_else(none) else { continue };
                 pixel.cost += std::mem::take(&mut owed);
-                out.push(pixel);
+                found(pixel);
             }
         }
     }
-    out
 }
 
 fn empty(index: usize) -> Pixel {
@@ -159,7 +171,8 @@ impl Primary<'_> {
         let mut meeting = Meeting { surface, t, before: Some(before), reason: None };
         let wide = |light: &Vec<[f64; 2]>| light[index][1] - light[index][0] > self.task.tolerance.width;
         if given.lights.iter().any(wide) {
-            let found = self.meet_finely(&Ray { beam, open: &[Piece { surface, t }], inside: false }, &mut cost);
+            let found =
+                self.meet_finely(&Ray { beam, open: &[Piece { surface, t }], inside: false, bracket: None }, &mut cost);
             // Of the roots in t the first: the very one that is given.
             meeting = found.filter(|m| m.reason.is_none() && m.before.is_some()).unwrap_or(meeting);
         }
@@ -170,7 +183,7 @@ impl Primary<'_> {
     /// Divides a block until its parts are empty, simple, or pixels.
     fn divide(&mut self, whole: Block) -> Vec<Node> {
         let nothing = Open::nothing(&self.surfaces, &self.fan(whole));
-        let node = |block| Node { block, open: Open::default(), cost: Cost::default(), children: 0..0 };
+        let node = |block| Node { block, open: Open::default(), patch: None, cost: Cost::default(), children: 0..0 };
         let mut nodes = vec![node(whole)];
         // Of each node, its parent.
         let mut parents = vec![0];
@@ -213,19 +226,42 @@ impl Primary<'_> {
         nodes
     }
 
+    /// The patches of blocks whose rays all meet one piece of a surface.
+    fn patches(&mut self, nodes: &mut [Node]) {
+        let one = |n: &Node| n.children.is_empty() && n.block.2 > 1 && n.open.certainly_covered() && n.open.inside;
+        let (places, asked): (Vec<usize>, Vec<(Fan, Piece)>) = nodes
+            .iter()
+            .enumerate()
+            .filter(|(_, n)| one(n))
+            .filter_map(|(k, n)| match n.open.open[..] {
+                [piece] => Some((k, (self.fan(n.block), piece))),
+                _ => None,
+            })
+            .unzip();
+        patches(&self.surfaces, &asked, &mut self.scratch.work, |k, patch, cost| {
+            let node = &mut nodes[places[k]];
+            node.cost += cost;
+            node.patch = patch;
+        });
+    }
+
     /// What the centre rays of all pixels meet that may show something.
     fn centres<'n>(&mut self, nodes: &'n [Node]) -> Vec<Sight<'n>> {
         let mut sights: Vec<Sight<'n>> = Vec::with_capacity(BLOCK * BLOCK);
         for node in nodes.iter().filter(|n| n.children.is_empty() && !n.open.certainly_empty()) {
+            let patch = node.patch.as_ref().map(|patch| (patch, Places::of(&self.task.film, node.block)));
             for index in indices(self.task, node.block).filter(|index| !is_given(self.given, *index)) {
                 let (column, row) = self.task.place(index);
                 let ray = self.task.film.ray(column, row);
-                let (pixel, thin, stage) = (empty(index), None, Stage::Settled);
-                sights.push(Sight { column, row, open: &node.open, ray, pixel, thin, stage });
+                let bracket = patch.as_ref().and_then(|(patch, places)| patch.bracket(places.symbols(column, row)));
+                let (pixel, thin, parts, stage) = (empty(index), None, None, Stage::Settled);
+                sights.push(Sight { column, row, open: &node.open, ray, bracket, pixel, thin, parts, stage });
             }
         }
-        let rays: Vec<Ray<'_>> =
-            sights.iter().map(|s| Ray { beam: s.ray, open: &s.open.open, inside: s.open.inside }).collect();
+        let rays: Vec<Ray<'_>> = sights
+            .iter()
+            .map(|s| Ray { beam: s.ray, open: &s.open.open, inside: s.open.inside, bracket: s.bracket })
+            .collect();
         let found = self.meet(&rays, Effort::FINE);
         let met: Vec<Met> =
             sights.iter().zip(&found).enumerate().filter_map(|(k, (s, (m, _)))| Some((k, s.ray, (*m)?))).collect();
@@ -252,8 +288,9 @@ impl Primary<'_> {
         sights
     }
 
-    /// How much of the pixels is covered that are not simply covered; and what is in front of what their centre rays meet.
-    fn coverages(&mut self, sights: &mut [Sight<'_>]) {
+    /// How much of the pixels is covered that are not simply covered; and what is in front of what their centre rays meet. Returns what is known of the
+    /// parts of those that were divided.
+    fn coverages(&mut self, sights: &mut [Sight<'_>]) -> Vec<Vec<Part>> {
         let mut asked: Vec<&mut Sight<'_>> = sights.iter_mut().filter(|s| s.stage == Stage::Coverage).collect();
         let film = &self.task.film;
         let windows: Vec<Window<'_>> = asked
@@ -261,14 +298,18 @@ impl Primary<'_> {
             .filter(|s| !s.open.certainly_covered())
             .map(|s| Window { film: film.window(s.column..s.column + 1, s.row..s.row + 1), parent: s.open })
             .collect();
-        let mut found = self.coverage(&windows, COVERAGE_LEVELS).into_iter();
+        let mut looking = Looking { film, surfaces: &self.surfaces, scratch: &mut *self.scratch };
+        let mut found = looking.coverage(&windows, COVERAGE_LEVELS).into_iter();
+        let mut parts = Vec::with_capacity(windows.len());
         for sight in &mut asked {
             let pixel = &mut sight.pixel;
             if !sight.open.certainly_covered()
-                && let Some((coverage, cost)) = found.next()
+                && let Some(covered) = found.next()
             {
-                pixel.coverage = outward(coverage);
-                pixel.cost += cost;
+                pixel.coverage = outward(covered.share);
+                pixel.cost += covered.cost;
+                sight.parts = Some(parts.len());
+                parts.push(covered.parts);
             }
             if pixel.coverage[1] == 0.0 {
                 (pixel.known, pixel.hit, sight.stage) = (Known::Empty, None, Stage::Settled);
@@ -280,21 +321,24 @@ impl Primary<'_> {
                 // An enclosure over the whole pixel reaches too far beside an edge: ask its parts.
                 let film = film.window(sight.column..sight.column + 1, sight.row..sight.row + 1);
                 let window = Window { film, parent: sight.open };
-                if !self.remains(piece, hit.t.lo(), window, COVERAGE_LEVELS, &mut pixel.cost) {
+                let mut looking =
+                    Looking { film: &self.task.film, surfaces: &self.surfaces, scratch: &mut *self.scratch };
+                if !looking.remains(piece, hit.t.lo(), window, COVERAGE_LEVELS, &mut pixel.cost) {
                     return None;
                 }
                 let beam = self.task.film.beam(sight.column, sight.row);
-                Some(self.task.hit(in_front(piece, beam), &mut self.scratch.work))
+                Some(Box::new(self.task.hit(in_front(piece, beam), &mut self.scratch.work)))
             });
             sight.stage = if sight.thin.is_none() && pixel.hit.is_some() { Stage::Corners } else { Stage::Edge };
         }
+        parts
     }
 
     /// Whether rays near the corners of a pixel meet about the same as its centre ray: then one colour will do.
-    fn corners(&mut self, sights: &mut [Sight<'_>]) {
+    fn corners<'n>(&mut self, sights: &mut [Sight<'n>], parts: &'n [Vec<Part>]) {
         for (i, j) in CORNERS {
-            let mut asked: Vec<&mut Sight<'_>> = sights.iter_mut().filter(|s| s.stage == Stage::Corners).collect();
-            let rays: Vec<Ray<'_>> = asked.iter().map(|s| self.part(s, i, j)).collect();
+            let mut asked: Vec<&mut Sight<'n>> = sights.iter_mut().filter(|s| s.stage == Stage::Corners).collect();
+            let rays: Vec<Ray<'_>> = asked.iter().map(|s| self.part(s, parts, i, j)).collect();
             let found = self.meet(&rays, self.task.glance);
             let met: Vec<Met> = rays
                 .iter()
@@ -317,11 +361,11 @@ impl Primary<'_> {
     }
 
     /// What a grid of rays meets in the pixels that show more than one thing.
-    fn edges(&mut self, sights: &mut [Sight<'_>]) {
-        let mut asked: Vec<&mut Sight<'_>> = sights.iter_mut().filter(|s| s.stage == Stage::Edge).collect();
+    fn edges<'n>(&mut self, sights: &mut [Sight<'n>], parts: &'n [Vec<Part>]) {
+        let mut asked: Vec<&mut Sight<'n>> = sights.iter_mut().filter(|s| s.stage == Stage::Edge).collect();
         const RAYS: usize = EDGE_RAYS * EDGE_RAYS;
         let rays: Vec<Ray<'_>> =
-            asked.iter().flat_map(|s| (0..RAYS).map(|k| self.part(s, k % EDGE_RAYS, k / EDGE_RAYS))).collect();
+            asked.iter().flat_map(|s| (0..RAYS).map(|k| self.part(s, parts, k % EDGE_RAYS, k / EDGE_RAYS))).collect();
         let found = self.meet(&rays, self.task.glance);
         let met: Vec<Met> =
             rays.iter().zip(&found).enumerate().filter_map(|(k, (ray, (m, _)))| Some((k, ray.beam, (*m)?))).collect();
@@ -345,14 +389,18 @@ impl Primary<'_> {
                 let beam = self.task.film.beam(sight.column, sight.row);
                 *hit = Some(self.task.hit(in_front(piece, beam), &mut self.scratch.work));
             }
-            sight.pixel.edge = Some(Box::new(Edge { rays: grid, thin: sight.thin }));
+            sight.pixel.edge = Some(Box::new(Edge { rays: grid, thin: sight.thin.take().map(|hit| *hit) }));
         }
     }
 
-    /// The ray through the middle of a part of a pixel.
-    fn part<'n>(&self, sight: &Sight<'n>, i: usize, j: usize) -> Ray<'n> {
-        let beam = self.task.film.sub_ray(sight.column, sight.row, i, j, EDGE_RAYS);
-        Ray { beam, open: &sight.open.open, inside: sight.open.inside }
+    /// The ray through the middle of a part of a pixel, with what is known of it.
+    fn part<'n>(&self, sight: &Sight<'n>, parts: &'n [Vec<Part>], i: usize, j: usize) -> Ray<'n> {
+        let Sight { column, row, .. } = *sight;
+        let film = &self.task.film;
+        let place = film.place(column, row, i, j, EDGE_RAYS);
+        let part = sight.parts.and_then(|k| parts[k].iter().find(|part| part.certainly_holds(place)));
+        let Open { open, inside, .. } = part.map_or(sight.open, |part| &part.open);
+        Ray { beam: film.sub_ray(column, row, i, j, EDGE_RAYS), open, inside: *inside, bracket: None }
     }
 
     fn meet(&mut self, rays: &[Ray<'_>], effort: Effort) -> Vec<(Option<Meeting>, Cost)> {
@@ -387,66 +435,6 @@ impl Primary<'_> {
             found(*asker, received(hit, ray, m));
         });
     }
-
-    /// Whether the surface of a piece stays possible before `until` in some part of a window of the film.
-    fn remains(&mut self, piece: &Piece, until: f64, window: Window<'_>, levels: u32, cost: &mut Cost) -> bool {
-        window.quarters().into_iter().any(|part| {
-            let fan = self.task.film.fan_of(part.film[0], part.film[1]);
-            let mut open = Open::default();
-            let Scratch { frusta, work, .. } = &mut *self.scratch;
-            narrow(&self.surfaces, &[Frustum { fan, parent: part.parent }], frusta, work, |_, known, spent| {
-                open = std::mem::take(known);
-                *cost += spent;
-            });
-            let there = open.open.iter().any(|p| p.surface == piece.surface && p.t.lo() < until);
-            there && (levels <= 1 || self.remains(piece, until, Window { parent: &open, ..part }, levels - 1, cost))
-        })
-    }
-
-    /// Bounds of the covered shares of windows of the film, as if their parts were exact quarters ([`outward`]), and costs.
-    fn coverage(&mut self, windows: &[Window<'_>], levels: u32) -> Vec<([f64; 2], Cost)> {
-        let quarters: Vec<Window<'_>> = windows.iter().flat_map(Window::quarters).collect();
-        let fan_of = |q: &Window<'_>| self.task.film.fan_of(q.film[0], q.film[1]);
-        let jobs: Vec<Frustum<'_>> = quarters.iter().map(|q| Frustum { fan: fan_of(q), parent: q.parent }).collect();
-        let mut open: Vec<(Open, Cost)> = Vec::with_capacity(jobs.len());
-        let Scratch { frusta, work, .. } = &mut *self.scratch;
-        narrow(&self.surfaces, &jobs, frusta, work, |_, known, cost| {
-            open.push((std::mem::take(known), cost));
-        });
-        // Where no quarter is settled (a sheet thinner than the pixel, say), going on would only cost.
-        let settled = |o: &(Open, Cost)| o.0.certainly_empty() || o.0.certainly_covered();
-        let worth = |four: &[(Open, Cost)]| levels > 1 && four.iter().any(settled);
-        let further: Vec<Window<'_>> = open
-            .chunks(4)
-            .zip(quarters.chunks(4))
-            .filter(|(four, _)| worth(four))
-            .flat_map(|(four, parts)| four.iter().zip(parts).filter(|(o, _)| !settled(o)))
-            .map(|(o, part)| Window { film: part.film, parent: &o.0 })
-            .collect();
-        let mut finer = if further.is_empty() { Vec::new() } else { self.coverage(&further, levels - 1) }.into_iter();
-        let mut sums = Vec::with_capacity(windows.len());
-        for four in open.chunks(4) {
-            let (mut sum, mut cost) = ([0.0; 2], Cost::default());
-            for part in four {
-                cost += part.1;
-                let share = if part.0.certainly_empty() {
-                    [0.0, 0.0]
-                } else if part.0.certainly_covered() {
-                    [1.0, 1.0]
-                } else if worth(four)
-                    && let Some((share, spent)) = finer.next()
-                {
-                    cost += spent;
-                    share
-                } else {
-                    [0.0, 1.0]
-                };
-                sum = [sum[0] + 0.25 * share[0], sum[1] + 0.25 * share[1]];
-            }
-            sums.push((sum, cost));
-        }
-        sums
-    }
 }
 
 fn asked(ray: &Beam, m: &Meeting) -> Asked {
@@ -467,30 +455,21 @@ fn in_front(piece: &Piece, beam: Beam) -> Asked {
     Asked { object: piece.surface, beam, t: piece.t, before: None }
 }
 
-/// A part of the film, and what is known of one that it is a part of.
-#[derive(Clone, Copy)]
-struct Window<'a> {
-    film: [Interval; 2],
-    parent: &'a Open,
+/// What the symbols of a block's fan are on its centre rays, column by column and row by row.
+struct Places {
+    corner: [usize; 2],
+    columns: [Interval; SIMPLE],
+    rows: [Interval; SIMPLE],
 }
 
-impl Window<'_> {
-    fn quarters(&self) -> [Self; 4] {
-        let ([left, right], [below, above]) = (halves(self.film[0]), halves(self.film[1]));
-        [[left, below], [right, below], [left, above], [right, above]].map(|film| Self { film, ..*self })
+impl Places {
+    fn of(film: &Film, (column, row, side): Block) -> Self {
+        let [x, y] = film.window(column..(column + side).min(film.width), row..(row + side).min(film.height));
+        let columns = std::array::from_fn(|k| film.column_symbol(x, column + k));
+        Self { corner: [column, row], columns, rows: std::array::from_fn(|k| film.row_symbol(y, row + k)) }
     }
-}
 
-/// Bounds of a share of a pixel, for parts that are quarters only up to rounding: film coordinates, in `[-1, 1]`, are known
-/// up to 2^-50; a pixel has at least the side 2^-15, so two edges move a share by less than 2 * 2 * 2^-35 < 1e-9. All and
-/// nothing are exact, whatever the parts are.
-fn outward([lo, hi]: [f64; 2]) -> [f64; 2] {
-    const ROUNDING: f64 = 1e-9;
-    [if lo < 1.0 { (lo - ROUNDING).max(0.0) } else { lo }, if hi > 0.0 { (hi + ROUNDING).min(1.0) } else { hi }]
-}
-
-/// The two halves of an interval; they share their edge.
-fn halves(t: Interval) -> [Interval; 2] {
-    let mid = t.mid();
-    [Interval::new(t.lo(), mid), Interval::new(mid, t.hi())]
+    fn symbols(&self, column: usize, row: usize) -> [Interval; 2] {
+        [self.columns[column - self.corner[0]], self.rows[row - self.corner[1]]]
+    }
 }

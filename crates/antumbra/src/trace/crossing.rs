@@ -1,8 +1,37 @@
 //! Where on a piece of a beam the surface may be, by one affine form: what lies before and behind is settled without a question.
 use super::Sign;
+use crate::eval::QuadraticPoint;
+use crate::geom::Fan;
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
+use antumbra_interval::quadratic::{Quadratic, Turn};
 use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
+
+/// How a symbol `x` in `[-1, 1]` runs along a piece: `t = middle + reach x`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Course {
+    middle: Interval,
+    reach: Interval,
+}
+
+impl Course {
+    pub(super) fn of(t: Interval) -> Self {
+        let [lo, hi, half] = [t.lo(), t.hi(), 0.5].map(Interval::point);
+        Self { middle: (lo + hi) * half, reach: (hi - lo) * half }
+    }
+
+    /// Encloses the parameters.
+    pub(super) fn at(self, x: Interval) -> Interval {
+        self.middle + self.reach * x
+    }
+
+    /// The points of a fan at such values of `x`, which are an affine form themselves: so the points have degree 2, and nothing is lost.
+    pub(super) fn points(self, x: Affine<3>, fan: &Fan) -> QuadraticPoint {
+        let t = x.mul_interval(self.reach).add_interval(self.middle);
+        let at = |k: usize| Quadratic::product_of(&t, &fan.direction[k]).add_interval(fan.apex[k]);
+        [at(0), at(1), at(2)]
+    }
+}
 
 /// What a form over a piece says along it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +55,26 @@ pub(super) fn contract<const N: usize>(t: Interval, form: &Affine<N>) -> Option<
     let open = Interval::try_new(first, last)?.intersection(t);
     let before = if crossing.rises { Sign::Negative } else { Sign::Positive };
     (!open.is_empty()).then_some(Contracted { open, before })
+}
+
+/// Where on a piece a function may be 0 that has one sign on both sides of that.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Turned {
+    /// At parameters of the piece outside of these, and at their ends within the piece, the function has that sign on every ray. Not empty.
+    pub(super) open: Interval,
+    pub(super) sign: Sign,
+}
+
+impl Turned {
+    /// From what a quadratic form over the piece says. Where it is 0 nowhere, one point is left.
+    ///
+    /// Products of intervals that are not 0 are rounded strictly outward, and the middle of a piece is such a product: so the ends of what is left
+    /// are beyond the zeros, unless the piece ends there.
+    pub(super) fn of(t: Interval, turn: Turn) -> Self {
+        let open = Course::of(t).at(turn.zeros).intersection(t);
+        let sign = if turn.positive { Sign::Positive } else { Sign::Negative };
+        Self { open: if open.is_empty() { Interval::point(t.hi()) } else { open }, sign }
+    }
 }
 
 impl Contracted {

@@ -1,13 +1,14 @@
 //! Frusta of the camera: which parts of which rays may meet which surface (certified, first order). Many frusta in lockstep, so
 //! that evaluations come in batches.
-use super::crossing::contract;
+use super::crossing::{Course, Turned, contract};
 use super::piece::certainly_continuous;
-use super::policy::{FRUSTUM_EVALUATIONS, Reach, Shape, curved, cut, smaller};
+use super::policy::{FRUSTUM_EVALUATIONS, Reach, Shape, bent, curved, cut, smaller};
 use super::{Cost, Piece, Sign, Surface};
-use crate::eval::{FanPiece, Workspace};
+use crate::eval::{FanPiece, QuadraticPoint, Workspace};
 use crate::geom::{Box3, Fan, Passage};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
+use antumbra_interval::quadratic::Quadratic;
 use smallvec::{SmallVec, smallvec};
 
 /// What is known of all rays of a frustum. Valid for every part of the frustum.
@@ -82,6 +83,17 @@ pub struct Frusta {
     active: Vec<usize>,
     pieces: Vec<FanPiece>,
     forms: Vec<Affine<3>>,
+    points: Vec<QuadraticPoint>,
+    quadratics: Vec<Quadratic>,
+}
+
+/// What a search asks about a piece.
+#[derive(Clone, Copy, Debug)]
+enum Asked {
+    /// The function as a plane.
+    Plane(Interval),
+    /// To second order.
+    Parabola(Interval),
 }
 
 /// A part of the rays of a frustum that comes next.
@@ -98,8 +110,8 @@ enum Next {
 struct Search {
     known: Known,
     cost: Cost,
-    /// The piece that is being looked at; `None` when all is done.
-    asked: Option<Interval>,
+    /// What is asked; `None` when all is done.
+    asked: Option<Asked>,
     stack: Vec<Next>,
     shape: Shape,
     directions: Box3,
@@ -116,7 +128,8 @@ struct Search {
 /// order. The `Known` may be taken; what is left in its place does not matter.
 ///
 /// A piece in which the enclosure of f excludes 0 holds no surface (wherever f is undefined there is none either); where it does
-/// not, the plane of the affine form cuts off what lies before and behind all zeros, with the signs there. If f
+/// not, the plane of the affine form cuts off what lies before and behind all zeros, with the signs there; or, where rays touch the surface, a
+/// quadratic form does ([`Quadratic::turn`]). If f
 /// has one sign on all rays at a parameter inside the surface's region, and the other sign at a later one, still inside,
 /// and is continuous in between, then every ray meets the surface in between: what lies behind is of no interest.
 ///
@@ -128,7 +141,7 @@ pub fn narrow(
     work: &mut Workspace,
     mut found: impl FnMut(usize, &mut Known, Cost),
 ) {
-    let Frusta { searches, active, pieces, forms } = scratch;
+    let Frusta { searches, active, pieces, forms, points, quadratics } = scratch;
     active.clear();
     for (k, job) in jobs.iter().enumerate() {
         if searches.len() == k {
@@ -144,18 +157,37 @@ pub fn narrow(
         }
         for (surface, of) in surfaces.iter().enumerate() {
             pieces.clear();
+            points.clear();
             for &k in active.iter().filter(|k| searches[**k].surface == surface) {
-                pieces.extend(searches[k].asked.map(|t| FanPiece { fan: jobs[k].fan, t }));
+                match searches[k].asked {
+                    Some(Asked::Plane(t)) => pieces.push(FanPiece { fan: jobs[k].fan, t }),
+                    Some(Asked::Parabola(t)) => {
+                        points.push(Course::of(t).points(Affine::symbol(0), &jobs[k].fan));
+                    }
+                    None => {}
+                }
             }
             forms.resize(pieces.len(), Affine::UNKNOWN);
+            quadratics.resize(points.len(), Quadratic::UNKNOWN);
             of.function.beams(pieces, forms, work);
-            let mut answers = forms.iter();
+            of.function.quadratics(points, quadratics, work);
+            // In the order of the questions.
+            let (mut planes, mut parabolas) = (forms.iter(), quadratics.iter());
             for &k in active.iter() {
-                if searches[k].surface == surface
-                    && let Some(t) = searches[k].asked
-                    && let Some(form) = answers.next()
-                {
-                    searches[k].looked(surfaces, &jobs[k], t, form, work);
+                let search = &mut searches[k];
+                if search.surface != surface {
+                    continue;
+                }
+                match search.asked {
+                    Some(Asked::Plane(t)) => {
+                        let form = planes.next().unwrap_or(&Affine::UNKNOWN);
+                        search.looked(surfaces, &jobs[k], t, form, work);
+                    }
+                    Some(Asked::Parabola(t)) => {
+                        let form = parabolas.next().unwrap_or(&Quadratic::UNKNOWN);
+                        search.looked_closely(surfaces, &jobs[k], t, form, work);
+                    }
+                    None => {}
                 }
             }
         }
@@ -243,15 +275,18 @@ impl Search {
                     self.keep_open(t);
                     continue;
                 }
-                self.cost.evaluations += 1;
-                self.asked = Some(t);
-                return;
+                return self.ask(Asked::Plane(t));
             }
             if !self.begin_surface(surfaces, job) {
                 self.asked = None;
                 return;
             }
         }
+    }
+
+    fn ask(&mut self, question: Asked) {
+        self.cost.evaluations += 1;
+        self.asked = Some(question);
     }
 
     fn keep_open(&mut self, t: Interval) {
@@ -290,18 +325,78 @@ impl Search {
                 self.keep_open(found.open);
             }
         } else if curved(form) && self.shape.long(t, self.reach) {
-            let [near, far] = cut(t);
-            self.stack.push(Next::Look(far));
-            self.stack.push(Next::Look(near));
+            if self.shape.very_long(t) {
+                return self.ask(Asked::Parabola(t));
+            }
+            self.halve(t);
         } else {
             self.keep_open(t);
         }
         self.go_on(surfaces, job, work);
     }
 
+    fn halve(&mut self, t: Interval) {
+        let [near, far] = cut(t);
+        self.stack.push(Next::Look(far));
+        self.stack.push(Next::Look(near));
+    }
+
+    /// A piece that is long for the frustum's width, on which the plane is no good: rays may touch the surface there.
+    fn looked_closely(
+        &mut self,
+        surfaces: &[Surface<'_>],
+        job: &Frustum<'_>,
+        t: Interval,
+        form: &Quadratic,
+        work: &mut Workspace,
+    ) {
+        let [positive, negative] = [*form, -*form].map(|form| form.eliminate());
+        let turned = form.turn().map(|turn| Turned::of(t, turn));
+        if positive.certainly_positive() {
+            self.free(surfaces, job, t, Sign::Positive, work);
+        } else if negative.certainly_positive() {
+            self.free(surfaces, job, t, Sign::Negative, work);
+        } else if let Some(Turned { open, sign }) = turned.filter(|found| smaller(found.open, t)) {
+            if open.hi() < t.hi() {
+                self.stack.push(Next::Free(Interval::new(open.hi(), t.hi()), sign));
+            }
+            self.stack.push(Next::Look(open));
+            if t.lo() < open.lo() {
+                self.free(surfaces, job, Interval::new(t.lo(), open.lo()), sign, work);
+            }
+        } else {
+            // Every ray has the other sign somewhere in the piece than in front of it.
+            let covered = |front: Sign| match front {
+                Sign::Positive => positive.certainly_negative_somewhere(),
+                Sign::Negative => negative.certainly_negative_somewhere(),
+            };
+            if let Some((front, at)) = self.known.front[self.surface]
+                && covered(front)
+                && at <= t.lo()
+                && t.is_subset_of(self.passage.inner)
+                && self.continuous(surfaces, job, Interval::new(at, t.hi()), work)
+            {
+                self.known.cover = self.known.cover.min(t.hi());
+                self.stack.clear();
+                self.keep_open(t);
+            } else if bent(form) {
+                self.halve(t);
+            } else {
+                self.keep_open(t);
+            }
+        }
+        self.go_on(surfaces, job, work);
+    }
+
+    /// Whether the function of this surface is proved continuous on all rays at parameters in `t`.
+    fn continuous(&self, surfaces: &[Surface<'_>], job: &Frustum<'_>, t: Interval, work: &mut Workspace) -> bool {
+        let function = surfaces[self.surface].function;
+        function.continuous_everywhere() || certainly_continuous(function, &job.fan.box_at(t), work)
+    }
+
     /// No ray meets the surface at a parameter in `t`: f has one sign there, where it is defined.
     fn free(&mut self, surfaces: &[Surface<'_>], job: &Frustum<'_>, t: Interval, sign: Sign, work: &mut Workspace) {
-        let (surface, function) = (self.surface, surfaces[self.surface].function);
+        let surface = self.surface;
         // Only parameters at which all rays are inside the region can prove a meeting.
         let inside = t.intersection(self.passage.inner);
         if inside.is_empty() {
@@ -312,13 +407,11 @@ impl Search {
         } else if let Some((front, at)) = self.known.front[surface]
             && front != sign
             && at <= inside.lo()
+            && self.continuous(surfaces, job, Interval::new(at, inside.lo()), work)
         {
-            let between = || job.fan.box_at(Interval::new(at, inside.lo()));
-            if function.continuous_everywhere() || certainly_continuous(function, &between(), work) {
-                self.known.cover = self.known.cover.min(inside.lo());
-                // What lies behind is of no interest.
-                self.stack.clear();
-            }
+            self.known.cover = self.known.cover.min(inside.lo());
+            // What lies behind is of no interest.
+            self.stack.clear();
         }
     }
 }

@@ -8,12 +8,14 @@
 mod bisection;
 mod crossing;
 mod frustum;
+mod patch;
 mod piece;
 mod policy;
 mod ray;
 
 pub use bisection::{Bisection, Search, first_section};
 pub use frustum::{Frusta, Frustum, Known, narrow};
+pub use patch::{Bracket, Patch, patches};
 pub use piece::{Piece, Sign, Surface, certainly_continuous};
 pub use policy::Effort;
 pub use ray::{Meeting, Ray, Scratch, first_meeting, first_meetings};

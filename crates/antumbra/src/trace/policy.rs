@@ -1,9 +1,11 @@
 //! Where to cut: choices that cost or save time and never touch a proof. The only file of this room with float
 //! arithmetic.
 #![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
+use super::patch::Layer;
 use crate::geom::{Box3, Fan, Vec3};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
+use antumbra_interval::quadratic::Quadratic;
 
 /// A piece longer than this many widths of the frustum is halved.
 const ASPECT: f64 = 2.0;
@@ -65,10 +67,22 @@ impl Shape {
 
     /// Whether a piece is long enough to be halved rather than divided across.
     pub(super) fn long(&self, t: Interval, reach: Reach) -> bool {
-        let length = t.hi() - t.lo();
-        length * self.speed > ASPECT * self.spread * t.hi() && reach.resolves(t)
+        self.parts(t) > 1.0 && reach.resolves(t)
+    }
+
+    /// Whether it would be halved often.
+    pub(super) fn very_long(&self, t: Interval) -> bool {
+        self.parts(t) > MANY
+    }
+
+    /// Into how many parts it would be cut. Not a number for a piece of no length across no width.
+    fn parts(&self, t: Interval) -> f64 {
+        (t.hi() - t.lo()) * self.speed / (ASPECT * self.spread * t.hi())
     }
 }
+
+/// A piece that would be halved into more parts than this is looked at to second order first.
+const MANY: f64 = 8.0;
 
 /// Whether a contracted piece is enough smaller than before.
 pub(super) fn smaller(open: Interval, before: Interval) -> bool {
@@ -80,6 +94,21 @@ pub(super) fn smaller(open: Interval, before: Interval) -> bool {
 pub(super) fn curved(form: &Affine<3>) -> bool {
     let [_, i, j] = form.coefficients();
     form.error() > CURVED * (i.abs() + j.abs())
+}
+
+/// The same of a quadratic form.
+pub(super) fn bent(form: &Quadratic) -> bool {
+    let [_, i, j] = form.linear();
+    form.error() > CURVED * (i.abs() + j.abs())
+}
+
+/// The planes, a little apart from them, between which an affine form over a piece may be 0.
+pub(super) fn layer(form: &Affine<3>) -> Option<Layer> {
+    let [along, across @ ..] = *form.coefficients();
+    let (middle, slopes) = (-form.centre() / along, across.map(|a| -a / along));
+    let size = middle.abs() + slopes[0].abs() + slopes[1].abs() + 1.0;
+    let reach = (form.error() / along).abs() * (1.0 + 1e-9) + 1e-13 * size;
+    Some(Layer { k: Interval::try_new(middle - reach, middle + reach).filter(|k| k.is_bounded())?, slopes })
 }
 
 /// Whether a derivative varies little.
@@ -111,7 +140,7 @@ impl Effort {
     }
 
     /// For hits from which shadows start. About 2^-37 is what cancellation leaves of a double root.
-    pub const FINE: Self = Self { shortest: 7.3e-12, root: 1e-14, most: 4096 };
+    pub const FINE: Self = Self { shortest: 7.3e-12, root: 1e-12, most: 4096 };
     /// For colours.
     pub const COARSE: Self = Self { shortest: 1e-5, root: 1e-4, most: 1024 };
 }

@@ -2,7 +2,7 @@
 use super::crossing::{Contracted, contract};
 use super::piece::certainly_continuous;
 use super::policy::{Effort, Reach, cut, smaller, straight, thin, tiny};
-use super::{Cost, Piece, Sign, Surface};
+use super::{Bracket, Cost, Piece, Sign, Surface};
 use crate::eval::{RayPiece, Workspace};
 use crate::geom::{Beam, Passage};
 use crate::verdict::Reason;
@@ -31,6 +31,8 @@ pub struct Ray<'a> {
     pub open: &'a [Piece],
     /// In all of them the ray is inside the region of their surface: proved.
     pub inside: bool,
+    /// If there is one open piece, what is proved of the first root in it: a start for the search.
+    pub bracket: Option<Bracket>,
 }
 
 /// Scratch memory of ray searches: keep it, it only grows.
@@ -222,10 +224,17 @@ pub fn first_meeting(
     cost: &mut Cost,
 ) -> Option<Meeting> {
     let mut meeting = None;
-    first_meetings(surfaces, &[Ray { beam: *beam, open, inside: false }], effort, scratch, work, |_, found, spent| {
-        meeting = found;
-        *cost += spent;
-    });
+    first_meetings(
+        surfaces,
+        &[Ray { beam: *beam, open, inside: false, bracket: None }],
+        effort,
+        scratch,
+        work,
+        |_, found, spent| {
+            meeting = found;
+            *cost += spent;
+        },
+    );
     meeting
 }
 
@@ -249,7 +258,13 @@ impl Search {
     fn begin(&mut self, c: &Context<'_>) {
         (self.best, self.cost, self.next) = (None, Cost::default(), 0);
         if self.begin_surface(c) {
-            self.go_on(c);
+            match c.ray.bracket {
+                Some(Bracket { t, before, .. }) => {
+                    self.stack.clear();
+                    self.enclose(c, Root { t, before, derivative: Interval::ENTIRE, steps: 0 }, Interval::ENTIRE);
+                }
+                None => self.go_on(c),
+            }
         }
     }
 
