@@ -102,7 +102,8 @@ impl Film {
         Self::symbol(y, -Self::middle(row, self.height))
     }
 
-    /// The symbol that is -1 at one end of the window and 1 at the other, at a place in it.
+    /// The symbol that is -1 at one end of the window and 1 at the other, at a place in it: the fan's coordinates are exactly linear in it, up to their
+    /// error ([`Affine::spanning`](antumbra_interval::affine::Affine::spanning)). Where the place is in the window, it is in `[-1, 1]`.
     fn symbol(window: Interval, at: Interval) -> Interval {
         let [lo, hi] = [window.lo(), window.hi()].map(Interval::point);
         (((at - lo) + (at - hi)) / (hi - lo)).intersection(Interval::new(-1.0, 1.0))
@@ -153,6 +154,33 @@ mod tests {
             for axis in 0..3 {
                 let (b, r) = (beam.direction[axis], ray.direction[axis]);
                 assert!(b.lo() <= r.lo() && r.hi() <= b.hi() && r.width() < 1e-14);
+            }
+        }
+    }
+
+    #[test]
+    fn symbols_are_those_of_the_fan() {
+        let camera = Camera::look_at(Vec3::new(4.0, -2.0, 2.0), Vec3::default(), 30.5, 37.0 / 23.0);
+        let film = Film { camera, width: 37, height: 23 };
+        // The last block is clipped at the picture's border.
+        for (columns, rows) in [(0..8, 0..8), (32..37, 16..23), (36..37, 22..23)] {
+            let (fan, [x, y]) = (film.fan(columns.clone(), rows.clone()), film.window(columns.clone(), rows.clone()));
+            for (column, row) in columns.clone().flat_map(|i| rows.clone().map(move |j| (i, j))) {
+                let symbols = [film.column_symbol(x, column), film.row_symbol(y, row)];
+                assert!(symbols.iter().all(|s| s.width() < 1e-11 && s.magnitude() <= 1.0), "{symbols:?}");
+                for k in 0..3 {
+                    let [_, a, b] = *fan.direction[k].coefficients();
+                    let at = [a, b].into_iter().zip(symbols).fold(
+                        Interval::point(fan.direction[k].centre())
+                            + Interval::new(-1.0, 1.0).mul_point(fan.direction[k].error()),
+                        |sum, (a, s)| sum + s.mul_point(a),
+                    );
+                    let ray = film.ray(column, row).direction[k];
+                    assert!(at.possibly_intersects(ray) && at.hull(ray).width() < 1e-13, "{at:?} {ray:?}");
+                }
+                // The parts of a pixel lie around its middle, the first one up and left.
+                let [mid, first] = [film.place(column, row, 0, 0, 1), film.place(column, row, 0, 0, 4)];
+                assert!(first[0].certainly_less(mid[0]) && mid[1].certainly_less(first[1]));
             }
         }
     }

@@ -1,4 +1,4 @@
-//! Where on a piece of a beam the surface may be, by one affine form: what lies before and behind is settled without a question.
+//! Where on a piece of a beam the surface may be, by one form, affine or quadratic: what lies before and behind is settled without a question.
 use super::Sign;
 use crate::eval::QuadraticPoint;
 use crate::geom::Fan;
@@ -60,20 +60,21 @@ pub(super) fn contract<const N: usize>(t: Interval, form: &Affine<N>) -> Option<
 /// Where on a piece a function may be 0 that has one sign on both sides of that.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Turned {
-    /// At parameters of the piece outside of these, and at their ends within the piece, the function has that sign on every ray. Not empty.
+    /// At parameters of the piece outside of these, and at their ends within the piece, the function has that sign on every ray. Empty if it has it
+    /// on the whole piece.
     pub(super) open: Interval,
     pub(super) sign: Sign,
 }
 
 impl Turned {
-    /// From what a quadratic form over the piece says. Where it is 0 nowhere, one point is left.
+    /// From what a quadratic form over the piece says.
     ///
     /// Products of intervals that are not 0 are rounded strictly outward, and the middle of a piece is such a product: so the ends of what is left
     /// are beyond the zeros, unless the piece ends there.
     pub(super) fn of(t: Interval, turn: Turn) -> Self {
         let open = Course::of(t).at(turn.zeros).intersection(t);
         let sign = if turn.positive { Sign::Positive } else { Sign::Negative };
-        Self { open: if open.is_empty() { Interval::point(t.hi()) } else { open }, sign }
+        Self { open, sign }
     }
 }
 
@@ -119,6 +120,25 @@ mod tests {
         assert_eq!(contract(t, &Affine::<2>::UNKNOWN), None);
         let wide = contract(t, &Affine::linear(0.0, [1.0, 2.0], 0.0)).unwrap();
         assert_eq!((wide.open, wide.head(t), wide.tail(t)), (t, None, None));
+    }
+
+    #[test]
+    #[allow(clippy::float_arithmetic, reason = "a parabola at places that floats hold exactly")]
+    fn around_a_turn_nothing_but_the_zeros_is_left_and_their_ends_are_beyond_them() {
+        // 4 (t - 2)^2 - 1/4 over t in [1, 3], x = t - 2: zeros at 7/4 and 9/4, which are floats.
+        let form = |c: f64| Quadratic::polynomial(c, [0.0; 3], [4.0, 0.0, 0.0, 0.0, 0.0, 0.0], 0.0);
+        let t = Interval::new(1.0, 3.0);
+        let found = Turned::of(t, form(-0.25).turn().unwrap());
+        assert_eq!(found.sign, Sign::Positive);
+        assert!(found.open.lo() < 1.75 && found.open.lo() > 1.75 - 1e-12, "{:?}", found.open);
+        assert!(found.open.hi() > 2.25 && found.open.hi() < 2.25 + 1e-12, "{:?}", found.open);
+        // A double zero at a float, with no rounding but that of the course.
+        let found = Turned::of(t, form(0.0).turn().unwrap());
+        assert!(found.open.lo() < 2.0 && found.open.hi() > 2.0 && found.open.width() < 1e-12, "{:?}", found.open);
+        assert_eq!(Turned::of(t, (-form(-0.25)).turn().unwrap()).sign, Sign::Negative);
+        assert!(Turned::of(t, form(0.25).turn().unwrap()).open.is_empty(), "no zero");
+        // Zeros at the ends of the piece: nothing is cut off.
+        assert_eq!(Turned::of(t, form(-4.0).turn().unwrap()).open, t);
     }
 
     #[test]

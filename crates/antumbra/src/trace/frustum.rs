@@ -1,4 +1,4 @@
-//! Frusta of the camera: which parts of which rays may meet which surface (certified, first order). Many frusta in lockstep, so
+//! Frusta of the camera: which parts of which rays may meet which surface (certified; second order where rays touch). Many frusta in lockstep, so
 //! that evaluations come in batches.
 use super::crossing::{Course, Turned, contract};
 use super::piece::certainly_continuous;
@@ -352,10 +352,14 @@ impl Search {
     ) {
         let [positive, negative] = [*form, -*form].map(|form| form.eliminate());
         let turned = form.turn().map(|turn| Turned::of(t, turn));
-        if positive.certainly_positive() {
-            self.free(surfaces, job, t, Sign::Positive, work);
-        } else if negative.certainly_positive() {
-            self.free(surfaces, job, t, Sign::Negative, work);
+        let free = match turned {
+            _ if positive.certainly_positive() => Some(Sign::Positive),
+            _ if negative.certainly_positive() => Some(Sign::Negative),
+            Some(turned) if turned.open.is_empty() => Some(turned.sign),
+            _ => None,
+        };
+        if let Some(sign) = free {
+            self.free(surfaces, job, t, sign, work);
         } else if let Some(Turned { open, sign }) = turned.filter(|found| smaller(found.open, t)) {
             if open.hi() < t.hi() {
                 self.stack.push(Next::Free(Interval::new(open.hi(), t.hi()), sign));

@@ -2,8 +2,8 @@
 //!
 //! Two families. The paper's: stackless bisection ("Root Searching") in the marked cells of a grid; what it reports is a
 //! section of T narrower than a limit in which the inclusion function could not exclude a zero, and its absence is a
-//! proof. The certified one: frusta in affine form that hand their open pieces down ([`narrow`]), and the first root of a
-//! ray, proved by signs and enclosed by interval Newton ([`first_meeting`]).
+//! proof. The certified one: frusta in affine form, and quadratic where rays touch, that hand their open pieces down ([`narrow`]), what all
+//! rays of a block meet to second order ([`patches`]), and the first root of a ray, proved by signs and enclosed by contraction and interval Newton ([`first_meeting`]).
 #![deny(clippy::float_arithmetic)]
 mod bisection;
 mod crossing;

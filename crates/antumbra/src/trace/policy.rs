@@ -75,7 +75,7 @@ impl Shape {
         self.parts(t) > MANY
     }
 
-    /// Into how many parts it would be cut. Not a number for a piece of no length across no width.
+    /// Into how many parts it would be cut. Not a number where it has no length and no width, nor where it is endless: then it is neither.
     fn parts(&self, t: Interval) -> f64 {
         (t.hi() - t.lo()) * self.speed / (ASPECT * self.spread * t.hi())
     }
@@ -150,8 +150,7 @@ pub(super) fn tiny(t: Interval, reach: Reach, effort: Effort) -> bool {
     t.hi() - t.lo() <= effort.shortest * t.hi().abs().max(reach.0)
 }
 
-/// Whether a root is enclosed well enough, or interval Newton has stopped to pay.
-pub(super) fn thin(t: Interval, before: Interval, effort: Effort) -> bool {
-    let (width, old) = (t.hi() - t.lo(), before.hi() - before.lo());
-    width <= effort.root * t.hi().abs() || (width > 0.5 * old && width <= 1e-12 * t.hi().abs())
+/// Whether a root is enclosed well enough.
+pub(super) fn thin(t: Interval, effort: Effort) -> bool {
+    t.hi() - t.lo() <= effort.root * t.hi().abs()
 }

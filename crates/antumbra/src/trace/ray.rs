@@ -31,7 +31,7 @@ pub struct Ray<'a> {
     pub open: &'a [Piece],
     /// In all of them the ray is inside the region of their surface: proved.
     pub inside: bool,
-    /// If there is one open piece, what is proved of the first root in it: a start for the search.
+    /// If there is one open piece, what is proved of the first root in it: a start for the search. Else it is not used.
     pub bracket: Option<Bracket>,
 }
 
@@ -141,6 +141,8 @@ impl Default for Search {
 /// The first root is then enclosed by new forms on shorter and shorter pieces, each about as narrow as the square of the one
 /// before, and where the derivative is nearly constant by interval Newton, which takes half the time:
 /// `N = m - f(m) / f'(T)` contains every root in T (mean value theorem).
+///
+/// Where a bracket is given ([`Patch::bracket`](super::Patch::bracket)) the search begins with it.
 ///
 /// The searches do not know of each other: the answer for a ray, and its cost, are the same in any company.
 pub fn first_meetings(
@@ -258,12 +260,15 @@ impl Search {
     fn begin(&mut self, c: &Context<'_>) {
         (self.best, self.cost, self.next) = (None, Cost::default(), 0);
         if self.begin_surface(c) {
-            match c.ray.bracket {
-                Some(Bracket { t, before, .. }) => {
+            match (c.ray.bracket, c.ray.open) {
+                // It is proved of the first root in the one open piece.
+                (Some(Bracket { surface, t, before }), [piece])
+                    if surface == piece.surface && t.is_subset_of(piece.t) =>
+                {
                     self.stack.clear();
-                    self.enclose(c, Root { t, before, derivative: Interval::ENTIRE, steps: 0 }, Interval::ENTIRE);
+                    self.enclose(c, Root { t, before, derivative: Interval::ENTIRE, steps: 0 }, piece.t);
                 }
-                None => self.go_on(c),
+                _ => self.go_on(c),
             }
         }
     }
@@ -414,7 +419,7 @@ impl Search {
 
     /// Goes on with the root, if that pays, whose interval was `wider` before.
     fn enclose(&mut self, c: &Context<'_>, root: Root, wider: Interval) {
-        if thin(root.t, wider, c.effort) || root.steps == STEPS {
+        if thin(root.t, c.effort) || root.steps == STEPS {
             self.proved(c, root);
         } else if !root.derivative.possibly_zero() && (straight(root.derivative) || !smaller(root.t, wider)) {
             self.ask(1, Step::Middle(root));
