@@ -69,14 +69,49 @@ impl Fringe {
     }
 }
 
+/// A list that grows by whole pieces: nothing is copied when it does.
+#[derive(Serialize, Deserialize)]
+struct Pieces<T>(Vec<Vec<T>>);
+
+impl<T> Pieces<T> {
+    /// Elements of a piece.
+    const SIZE: usize = 4096;
+
+    fn len(&self) -> usize {
+        self.0.last().map_or(0, |last| (self.0.len() - 1) * Self::SIZE + last.len())
+    }
+
+    fn get(&self, k: usize) -> Option<&T> {
+        self.0.get(k / Self::SIZE)?.get(k % Self::SIZE)
+    }
+
+    /// Element `k`, in the place of the one that is there, or as the last.
+    fn put(&mut self, k: usize, value: T) {
+        let (piece, k) = (k / Self::SIZE, k % Self::SIZE);
+        if piece == self.0.len() {
+            self.0.push(Vec::with_capacity(Self::SIZE));
+        }
+        match self.0[piece].get_mut(k) {
+            Some(place) => *place = value,
+            None => self.0[piece].push(value),
+        }
+    }
+
+    /// Whether all pieces but the last are full, as they are made.
+    fn holds(&self) -> bool {
+        let (last, full) = self.0.split_last().map_or((0, &[][..]), |(last, full)| (last.len(), full));
+        last <= Self::SIZE && full.iter().all(|piece| piece.len() == Self::SIZE)
+    }
+}
+
 /// At most one hit for each pixel.
 #[derive(Serialize, Deserialize)]
 pub(super) struct Hits {
     /// For each pixel 0, or the number of its hit, from 1 on: 32 bits are enough, pictures have fewer pixels.
     places: Vec<u32>,
-    seen: Vec<Seen>,
+    seen: Pieces<Seen>,
     /// Where shadows start, of the same hits.
-    receivers: Vec<Option<Receiver>>,
+    receivers: Pieces<Option<Receiver>>,
 }
 
 impl Hits {
@@ -84,7 +119,7 @@ impl Hits {
     pub(super) const BYTES_PER_PIXEL: usize = size_of::<u32>() + size_of::<Seen>() + size_of::<Option<Receiver>>();
 
     pub(super) fn none(pixels: usize) -> Self {
-        Self { places: vec![0; pixels], seen: Vec::new(), receivers: Vec::new() }
+        Self { places: vec![0; pixels], seen: Pieces(Vec::new()), receivers: Pieces(Vec::new()) }
     }
 
     /// Pixels.
@@ -102,44 +137,88 @@ impl Hits {
 
     /// Whether every number is that of a hit: what is read from a file may be anything.
     pub(super) fn holds(&self) -> bool {
-        self.places.iter().all(|place| *place as usize <= self.seen.len()) && self.seen.len() == self.receivers.len()
+        let hits = self.seen.len();
+        let pieces = self.seen.holds() && self.receivers.holds() && hits == self.receivers.len();
+        pieces && self.places.iter().all(|place| *place as usize <= hits)
     }
 
     pub(super) fn at(&self, index: usize) -> Option<&Seen> {
-        let place = self.places[index].checked_sub(1)?;
-        self.seen.get(place as usize)
+        self.seen.get(self.places[index].checked_sub(1)? as usize)
     }
 
     /// The proved hit of a pixel, if it has one.
     pub(super) fn receiver(&self, index: usize) -> Option<&Receiver> {
-        let place = self.places[index].checked_sub(1)?;
-        self.receivers.get(place as usize)?.as_ref()
+        self.receivers.get(self.places[index].checked_sub(1)? as usize)?.as_ref()
     }
 
-    /// What is kept of the hit of a pixel, in the place of what it had.
+    /// The hit of a pixel, in the place of what it had.
     pub(super) fn put(&mut self, index: usize, hit: Option<&Hit>) {
-        match hit {
-            Some(hit) => self.keep(index, &hit.into(), hit.receiver.as_ref()),
-            None => self.places[index] = 0,
-        }
-    }
-
-    /// What other hits keep of the hit of a pixel there, in the place of what it had.
-    pub(super) fn put_from(&mut self, index: usize, others: &Self, there: usize) {
-        match others.at(there) {
-            Some(seen) => self.keep(index, seen, others.receiver(there)),
-            None => self.places[index] = 0,
-        }
-    }
-
-    pub(super) fn keep(&mut self, index: usize, seen: &Seen, receiver: Option<&Receiver>) {
-        let place = &mut self.places[index];
-        if let Some(old) = place.checked_sub(1) {
-            (self.seen[old as usize], self.receivers[old as usize]) = (*seen, receiver.copied());
+        if let Some(hit) = hit {
+            let place = self.place(index);
+            self.seen.put(place, hit.into());
+            self.receivers.put(place, hit.receiver);
         } else {
-            self.seen.push(*seen);
-            self.receivers.push(receiver.copied());
-            *place = u32::try_from(self.seen.len()).expect("fewer pixels than that");
+            self.places[index] = 0;
         }
+    }
+
+    /// What other hits keep of a pixel there, in the place of what it had.
+    pub(super) fn put_from(&mut self, index: usize, others: &Self, there: usize) {
+        if let Some(seen) = others.at(there) {
+            self.keep(index, *seen, others.receiver(there).copied());
+        } else {
+            self.places[index] = 0;
+        }
+    }
+
+    pub(super) fn keep(&mut self, index: usize, seen: Seen, receiver: Option<Receiver>) {
+        let place = self.place(index);
+        self.seen.put(place, seen);
+        self.receivers.put(place, receiver);
+    }
+
+    /// Where the hit of a pixel is put: where its old one is, or behind all others.
+    fn place(&mut self, index: usize) -> usize {
+        let (place, hits) = (&mut self.places[index], self.seen.len());
+        if *place == 0 {
+            *place = u32::try_from(hits + 1).expect("fewer pixels than that");
+        }
+        *place as usize - 1
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn seen(k: usize) -> Seen {
+        Seen {
+            point: Vec3::new(k as f64, 0.0, 0.0),
+            normal: Vec3::default(),
+            color: [0.5; 3],
+            object: 0,
+            proved: false,
+        }
+    }
+
+    #[test]
+    fn hits_are_found_in_every_piece_after_changes_and_slides() {
+        let pixels = 3 * Pieces::<Seen>::SIZE;
+        let mut hits = Hits::none(pixels);
+        (0..pixels).filter(|k| k % 3 > 0).for_each(|k| hits.keep(k, seen(k), None));
+        (0..pixels).filter(|k| k % 3 == 1).for_each(|k| hits.keep(k, seen(k + 1), None));
+        (0..pixels).filter(|k| k % 9 == 2).for_each(|k| hits.put(k, None));
+        let wanted = |k: usize| match (k % 3, k % 9) {
+            (0, _) | (_, 2) => None,
+            (1, _) => Some(k + 1),
+            _ => Some(k),
+        };
+        let found = |hits: &Hits, k: usize| hits.at(k).map(|seen| seen.point[0] as usize);
+        assert!(hits.holds() && (0..pixels).all(|k| found(&hits, k) == wanted(k)));
+        hits.slide(100, pixels);
+        assert!(hits.holds() && (0..pixels - 100).all(|k| found(&hits, k) == wanted(k + 100)));
+        assert!((pixels - 100..pixels).all(|k| hits.at(k).is_none()));
+        hits.seen.0[0].pop();
+        assert!(!hits.holds(), "a piece that is not full");
     }
 }

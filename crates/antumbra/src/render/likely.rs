@@ -62,7 +62,7 @@ mod tests {
             Seen { point: Vec3::default(), normal: Vec3::new(0.0, 0.0, 1.0), color: [0.5; 3], object: 0, proved: true };
         for (k, [lo, hi]) in brackets.iter().enumerate() {
             (frame.lights[0].visible_lo[k], frame.lights[0].visible_hi[k]) = (*lo, *hi);
-            hits.keep(k, &hit, None);
+            hits.keep(k, hit, None);
         }
         (hits, frame)
     }
@@ -87,10 +87,10 @@ mod tests {
     fn other_surfaces_and_bends_say_nothing() {
         let (mut hits, frame) = row(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [0.0, 1.0]]);
         let hit = *hits.at(0).unwrap();
-        hits.keep(0, &Seen { object: 1, ..hit }, None);
-        hits.keep(2, &Seen { normal: Vec3::new(1.0, 0.0, 0.0), ..hit }, None);
+        hits.keep(0, Seen { object: 1, ..hit }, None);
+        hits.keep(2, Seen { normal: Vec3::new(1.0, 0.0, 0.0), ..hit }, None);
         assert_eq!(likely(&hits, &frame, 0, 1, TOLERANCE), 0.5);
-        hits.keep(2, &Seen { proved: false, ..hit }, None);
+        hits.keep(2, Seen { proved: false, ..hit }, None);
         assert_eq!(likely(&hits, &frame, 0, 1, TOLERANCE), 0.5, "what is not proved to be a hit has no light");
     }
 }
