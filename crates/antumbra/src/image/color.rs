@@ -62,31 +62,44 @@ pub fn code_16(linear: f64) -> u16 {
 /// - within 1/2 of black or white, `floor(v + u)`, `u` uniform on [0, 1): the mean is still `v`, nothing has to be
 ///   clamped, and `v` = 0 and `v` = 255 stay what they are.
 pub fn code_8(linear: f64, row: usize, column: usize, channel: usize) -> u8 {
+    let key = noise_key(row, channel);
+    code(linear, [column, column.wrapping_add(1)].map(|column| noise(key, column)))
+}
+
+/// The codes of [`code_8`] of all channels of the pixels of a row, with the noise of each pixel asked for once.
+pub(super) fn row_8(linear: impl Iterator<Item = [f64; 3]>, row: usize, codes: &mut Vec<u8>) {
+    let keys = [0, 1, 2].map(|channel| noise_key(row, channel));
+    let mut here = keys.map(|key| noise(key, 0));
+    for (column, light) in linear.enumerate() {
+        let next = keys.map(|key| noise(key, column + 1));
+        codes.extend([0, 1, 2].map(|k| code(light[k], [here[k], next[k]])));
+        here = next;
+    }
+}
+
+/// The code under the noise of a pixel and of the one to its right.
+fn code(linear: f64, noises: [f64; 2]) -> u8 {
     // A good guess of `v` decides, unless it is nearly between two codes or two forms.
     if let Some(v) = guess(linear)
         && DITHERED_ALIKE.iter().all(|edge| (v - edge).abs() > GUESS)
     {
-        let [low, high] = [v - GUESS, v + GUESS].map(|v| dithered(v, row, column, channel));
-        if low == high {
-            return low;
+        let place = dithered(v, noises);
+        let above = place - f64::from(place as u8);
+        if above > GUESS && above < 1.0 - GUESS {
+            return place as u8;
         }
     }
-    dithered(255.0 * srgb_from_linear(linear), row, column, channel)
+    dithered(255.0 * srgb_from_linear(linear), noises) as u8
 }
 
 /// Between them codes are dithered alike.
 const DITHERED_ALIKE: [f64; 2] = [0.5, 254.5];
 
-/// The code of an exact one `v`.
-fn dithered(v: f64, row: usize, column: usize, channel: usize) -> u8 {
-    let (u, [first, last]) = (noise(row, column, channel), DITHERED_ALIKE);
+/// An exact code `v` with its noise: in [0, 256), to be rounded down, as a cast does.
+fn dithered(v: f64, [u, next]: [f64; 2]) -> f64 {
+    let [first, last] = DITHERED_ALIKE;
     // first <= v <= last and |n| < 1 keep the second form within 0..=255.
-    let code = if !(first..=last).contains(&v) {
-        (v + u).floor()
-    } else {
-        (v + 0.5 + u - noise(row, column.wrapping_add(1), channel)).floor()
-    };
-    code as u8
+    if !(first..=last).contains(&v) { v + u } else { v + 0.5 + u - next }
 }
 
 /// How far a [`guess`] may be off, with room to spare: a test measures a quarter of it at most.
@@ -109,16 +122,22 @@ fn guess(linear: f64) -> Option<f64> {
     Some(a + (b - a) * (place - step as f64))
 }
 
-/// Uniform noise in [0, 1) of 32 bits, by the mixing steps of `MurmurHash3`'s 64-bit finaliser (Appleby, public
-/// domain), which sends every change of a coordinate to all bits.
-fn noise(row: usize, column: usize, channel: usize) -> f64 {
-    let mix = |mut h: u64| {
-        h = (h ^ (h >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
-        h = (h ^ (h >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
-        h ^ (h >> 33)
-    };
-    let row_key = mix((row as u64) ^ ((channel as u64) << 48) ^ 0x9e37_79b9_7f4a_7c15);
-    (mix(row_key ^ (column as u64)) >> 32) as f64 / 4_294_967_296.0
+/// Uniform noise in [0, 1) of 32 bits of a pixel in the row and channel of that key.
+fn noise(key: u64, column: usize) -> f64 {
+    (mix(key ^ (column as u64)) >> 32) as f64 / 4_294_967_296.0
+}
+
+/// What [`noise`] needs to know of row and channel.
+fn noise_key(row: usize, channel: usize) -> u64 {
+    mix((row as u64) ^ ((channel as u64) << 48) ^ 0x9e37_79b9_7f4a_7c15)
+}
+
+/// The mixing steps of `MurmurHash3`'s 64-bit finaliser (Appleby, public domain), which send every change of a coordinate to
+/// all bits.
+fn mix(mut h: u64) -> u64 {
+    h = (h ^ (h >> 33)).wrapping_mul(0xff51_afd7_ed55_8ccd);
+    h = (h ^ (h >> 33)).wrapping_mul(0xc4ce_b9fe_1a85_ec53);
+    h ^ (h >> 33)
 }
 
 #[cfg(test)]
@@ -154,9 +173,21 @@ mod tests {
         assert!(most < 0.25 * GUESS, "{most}");
         for k in 0..400_000 {
             let (light, row, column) = (f64::from(k as f32 / 400_000.0), k % 613, k / 613);
-            assert_eq!(code_8(light, row, column, 1), dithered(255.0 * srgb_from_linear(light), row, column, 1));
+            let noises = [column, column + 1].map(|column| noise(noise_key(row, 1), column));
+            assert_eq!(code_8(light, row, column, 1), dithered(255.0 * srgb_from_linear(light), noises) as u8);
         }
         assert!([0.0, 1.0, -1.0, f64::NAN].iter().all(|x| guess(*x).is_none()));
+    }
+
+    #[test]
+    fn codes_of_a_row_are_those_of_its_pixels() {
+        let light = |column: usize, channel: usize| (column * 3 + channel) as f64 / 300.0 - 0.01;
+        let mut codes = vec![];
+        row_8((0..104).map(|column| [0, 1, 2].map(|channel| light(column, channel))), 7, &mut codes);
+        for (k, code) in codes.iter().enumerate() {
+            assert_eq!(*code, code_8(light(k / 3, k % 3), 7, k / 3, k % 3), "{k}");
+        }
+        assert_eq!(codes.len(), 3 * 104);
     }
 
     #[test]
@@ -220,6 +251,7 @@ mod tests {
 
     #[test]
     fn noise_differs_between_channels_and_rows() {
+        let noise = |row, column, channel| noise(noise_key(row, channel), column);
         let same = (0..1000).filter(|&i| (noise(0, i, 0) - noise(0, i, 1)).abs() < 1e-3).count();
         assert!(same < 10, "{same}");
         let correlation: f64 = (0..10_000).map(|i| (noise(1, i, 0) - 0.5) * (noise(2, i, 0) - 0.5)).sum::<f64>() / 1e4;

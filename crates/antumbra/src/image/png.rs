@@ -1,6 +1,7 @@
 //! `.png`: the picture for eyes, in sRGB.
 
-use super::{Error, Plane, SOFTWARE, Samples, code_8, code_16};
+use super::color::row_8;
+use super::{Error, Plane, SOFTWARE, Samples, code_16};
 use std::io::Write;
 
 /// Bits per channel of a PNG.
@@ -88,8 +89,8 @@ const NOTE: &str = "Comment";
 /// [`Error::NotColor`] and [`Error::NotANumber`] as for [`png_bytes`].
 pub fn png_codes(plane: &Plane, first: usize, depth: Depth) -> Result<Vec<u8>, Error> {
     match plane.samples() {
-        Samples::F64(v) if plane.channels() == 3 => codes(plane, first, depth, v.iter().copied()),
-        Samples::F32(v) if plane.channels() == 3 => codes(plane, first, depth, v.iter().map(|&x| f64::from(x))),
+        Samples::F64(v) if plane.channels() == 3 => codes(plane, first, depth, v),
+        Samples::F32(v) if plane.channels() == 3 => codes(plane, first, depth, v),
         _ => Err(Error::NotColor(plane.name().to_owned())),
     }
 }
@@ -118,17 +119,15 @@ fn refused(error: png::EncodingError) -> Error {
     Error::Encode { format: "PNG", reason: error.to_string() }
 }
 
-fn codes(plane: &Plane, first: usize, depth: Depth, light: impl Iterator<Item = f64>) -> Result<Vec<u8>, Error> {
-    let columns = plane.columns();
-    let mut codes = Vec::with_capacity(plane.samples().len() * if depth == Depth::Eight { 1 } else { 2 });
-    for (i, x) in light.enumerate() {
-        let (row, column, channel) = (first + i / 3 / columns, i / 3 % columns, i % 3);
-        if x.is_nan() {
-            return Err(Error::NotANumber { name: plane.name().to_owned(), row, column });
+fn codes<T: Copy + Into<f64>>(plane: &Plane, first: usize, depth: Depth, light: &[T]) -> Result<Vec<u8>, Error> {
+    let mut codes = Vec::with_capacity(light.len() * if depth == Depth::Eight { 1 } else { 2 });
+    for (row, light) in (first..).zip(light.chunks_exact(3 * plane.columns())) {
+        if let Some(k) = light.iter().position(|x| (*x).into().is_nan()) {
+            return Err(Error::NotANumber { name: plane.name().to_owned(), row, column: k / 3 });
         }
         match depth {
-            Depth::Eight => codes.push(code_8(x, row, column, channel)),
-            Depth::Sixteen => codes.extend(code_16(x).to_be_bytes()),
+            Depth::Eight => row_8(light.chunks_exact(3).map(|x| [x[0], x[1], x[2]].map(T::into)), row, &mut codes),
+            Depth::Sixteen => light.iter().for_each(|x| codes.extend(code_16((*x).into()).to_be_bytes())),
         }
     }
     Ok(codes)

@@ -40,10 +40,10 @@ impl Renderer {
     }
 
     /// Bytes that the pixels of a picture take while it is drawn, were all of them hits: the planes, the cost, the place of a hit, and a hit. Beside it
-    /// come some 3 kB for each pixel that an edge crosses, and what is proportional to formulas and threads.
+    /// come up to 1.4 kB for each pixel that an edge crosses, and what is proportional to formulas and threads.
     #[must_use]
     pub fn bytes(width: usize, rows: usize, lights: usize) -> u64 {
-        let hit = size_of::<super::pixel::Hit>() + 2 * size_of::<u32>();
+        let hit = super::hits::Hits::BYTES_PER_PIXEL + size_of::<u32>();
         (width as u64).saturating_mul(rows as u64).saturating_mul((Frame::bytes_per_pixel(lights) + hit) as u64)
     }
 }

@@ -1,7 +1,8 @@
 //! Smooth inner edges: where one part of a surface passes before another, where surfaces cross, where a surface bends sharply.
 //! Pixels that are proved hit show such an edge as a stair; a grid of rays in each gives its colour. Nothing here is
 //! certified, and nothing changes what is.
-use super::pixel::{Edge, Hit};
+use super::hits::{Fringe, Seen};
+use super::pixel::Edge;
 use super::spare::Scratch;
 use super::task::{Asked, Task};
 use super::visibility::EDGE_RAYS;
@@ -15,14 +16,14 @@ const BEND: f64 = 0.9;
 const STEP: f64 = 0.35;
 
 /// Whether an edge runs between the hits of two neighbouring pixels.
-pub(super) fn apart(a: &Hit, b: &Hit) -> bool {
+pub(super) fn apart(a: &Seen, b: &Seen) -> bool {
     let between = b.point - a.point;
     let off = between.dot(a.normal).abs().max(between.dot(b.normal).abs());
     a.object != b.object || a.normal.dot(b.normal) < BEND || off > STEP * between.length()
 }
 
 /// The grids of rays of some pixels, what they cost, and how full their batches were.
-pub(super) type Grids = (Vec<(usize, Edge)>, Cost, Occupancy);
+pub(super) type Grids = (Vec<(usize, Fringe)>, Cost, Occupancy);
 
 /// What a grid of rays meets in each of some pixels.
 pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> Grids {
@@ -65,6 +66,7 @@ pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> Gri
         let k = met[k].0;
         grids[k / RAYS][k % RAYS] = Some(hit);
     });
-    let edges = pixels.iter().zip(grids).map(|(&index, rays)| (index, Edge { rays, thin: None })).collect();
+    let edges =
+        pixels.iter().zip(grids).map(|(&index, rays)| (index, Fringe::from(&Edge { rays, thin: None }))).collect();
     (edges, cost, work.take_occupancy())
 }

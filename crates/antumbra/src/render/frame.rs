@@ -54,6 +54,11 @@ impl LightPlanes {
         0.5 * (self.visible_lo[index] + self.visible_hi[index])
     }
 
+    /// Whether nothing has been told of the light of a hit.
+    pub(super) fn is_untold(&self, index: usize) -> bool {
+        (self.visible_lo[index], self.visible_hi[index]) == (0.0, 1.0)
+    }
+
     /// Whether the bracket is wider than the tolerance.
     pub(super) fn is_open(&self, index: usize, tolerance: f64) -> bool {
         self.visible_hi[index] - self.visible_lo[index] > tolerance * (1.0 + 1e-9)

@@ -45,16 +45,46 @@ pub(super) fn irradiance(point: Vec3, normal: Vec3, rect: &Rect) -> Irradiance {
 fn form(polygon: &[Vec3], normal: Vec3) -> f64 {
     let mut sum = 0.0;
     let mut a = polygon[polygon.len() - 1];
+    let mut length_a = a.length();
     for &b in polygon {
-        let cross = a.cross(b);
+        let (cross, length_b) = (a.cross(b), b.length());
         let sine = cross.length();
         if sine > 0.0 {
-            sum += core_math::atan2(sine, a.dot(b)) * cross.dot(normal) / sine;
+            sum += angle(sine, a.dot(b), length_a * length_b) * cross.dot(normal) / sine;
         }
-        a = b;
+        (a, length_a) = (b, length_b);
     }
     sum.abs() / std::f64::consts::TAU
 }
+
+/// The angle in [0, pi] whose sine and cosine, both times `scale`, are given. Within 1e-14 of itself, by operations that round alike
+/// everywhere, and much faster than a correctly rounded arc tangent: colours claim nothing.
+///
+/// The tangent of half the angle, or of half of what it lacks of pi, is in [0, 1], and nothing cancels in it. Halved at most twice more, by
+/// `tan(a/2) = tan a/(1 + sqrt(1 + tan^2 a))`, it is below 1/5, where the series of the arc tangent ends after eleven terms: the next
+/// is below `0.2^22/23 < 2e-17`.
+fn angle(sine: f64, cosine: f64, scale: f64) -> f64 {
+    let (mut tangent, mut times) = (sine / (scale + cosine.abs()), 2.0);
+    while tangent > 0.2 {
+        tangent /= 1.0 + (1.0 + tangent * tangent).sqrt();
+        times *= 2.0;
+    }
+    let square = tangent * tangent;
+    // 1 - square/3 + square^2/5 - ..., by squares of it: half as many steps that wait for each other.
+    let series = SERIES.iter().rev().fold(0.0, |sum, [a, b]| sum * (square * square) + (a + b * square));
+    let acute = times * tangent * series;
+    if cosine < 0.0 { std::f64::consts::PI - acute } else { acute }
+}
+
+/// Of the arc tangent, two by two: `(-1)^k/(2k + 1)`.
+const SERIES: [[f64; 2]; 6] = [
+    [1.0, -1.0 / 3.0],
+    [1.0 / 5.0, -1.0 / 7.0],
+    [1.0 / 9.0, -1.0 / 11.0],
+    [1.0 / 13.0, -1.0 / 15.0],
+    [1.0 / 17.0, -1.0 / 19.0],
+    [1.0 / 21.0, 0.0],
+];
 
 #[cfg(test)]
 mod tests {
@@ -74,6 +104,19 @@ mod tests {
             let got = irradiance(Vec3::default(), UP, &light);
             assert!((got.form - want).abs() < 1e-12 && (got.above - 1.0).abs() < 1e-12, "{got:?}, {want}");
         }
+    }
+
+    #[test]
+    fn angles_are_those_of_the_arc_tangent() {
+        let mut most = 0.0_f64;
+        let small = |k: u32| std::f64::consts::PI * core_math::exp2(-f64::from(k) / 8.0);
+        for turn in (1..300).flat_map(|k| [small(k), std::f64::consts::PI - small(k)]) {
+            let (sine, cosine) = (3.0 * core_math::sin(turn).abs(), 3.0 * core_math::cos(turn));
+            let want = core_math::atan2(sine, cosine);
+            most = most.max((angle(sine, cosine, 3.0) / want - 1.0).abs());
+        }
+        assert!(most < 1e-14, "{most}");
+        assert_eq!(angle(0.0, -1.0, 1.0), std::f64::consts::PI);
     }
 
     #[test]

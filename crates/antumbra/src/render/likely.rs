@@ -27,9 +27,9 @@ pub(super) fn likely(hits: &Hits, frame: &Frame, light: usize, index: usize, tol
         let (mut sum, mut weights) = (0.0, 0.0);
         for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
             let at = y * frame.width + x;
-            let known = |other: &&super::pixel::Hit| {
+            let known = |other: &&super::hits::Seen| {
                 other.object == hit.object
-                    && other.receiver.is_some()
+                    && other.proved
                     && other.normal.dot(hit.normal) > SMOOTH
                     && !planes.is_open(at, tolerance)
             };
@@ -50,10 +50,7 @@ pub(super) fn likely(hits: &Hits, frame: &Frame, light: usize, index: usize, tol
 mod tests {
     use super::*;
     use crate::geom::Vec3;
-    use crate::render::pixel::Hit;
-    use crate::shadow::Receiver;
-    use crate::trace::Sign;
-    use antumbra_interval::Interval;
+    use crate::render::hits::Seen;
 
     const TOLERANCE: f64 = 0.01;
 
@@ -61,19 +58,11 @@ mod tests {
     fn row(brackets: &[[f64; 2]]) -> (Hits, Frame) {
         let mut frame = Frame::new(brackets.len(), 1, 1).unwrap();
         let mut hits = Hits::none(brackets.len());
-        let receiver = Receiver { point: Vec3::default().to_box(), surface: 0, side: Sign::Positive };
-        let hit = Hit {
-            t: Interval::point(1.0),
-            point: Vec3::default(),
-            normal: Vec3::new(0.0, 0.0, 1.0),
-            color: [0.5; 3],
-            object: 0,
-            floor: false,
-            receiver: Some(receiver),
-        };
+        let hit =
+            Seen { point: Vec3::default(), normal: Vec3::new(0.0, 0.0, 1.0), color: [0.5; 3], object: 0, proved: true };
         for (k, [lo, hi]) in brackets.iter().enumerate() {
             (frame.lights[0].visible_lo[k], frame.lights[0].visible_hi[k]) = (*lo, *hi);
-            hits.put(k, Some(hit));
+            hits.keep(k, hit, None);
         }
         (hits, frame)
     }
@@ -98,10 +87,10 @@ mod tests {
     fn other_surfaces_and_bends_say_nothing() {
         let (mut hits, frame) = row(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [0.0, 1.0]]);
         let hit = *hits.at(0).unwrap();
-        hits.put(0, Some(Hit { object: 1, ..hit }));
-        hits.put(2, Some(Hit { normal: Vec3::new(1.0, 0.0, 0.0), ..hit }));
+        hits.keep(0, Seen { object: 1, ..hit }, None);
+        hits.keep(2, Seen { normal: Vec3::new(1.0, 0.0, 0.0), ..hit }, None);
         assert_eq!(likely(&hits, &frame, 0, 1, TOLERANCE), 0.5);
-        hits.put(2, Some(Hit { receiver: None, ..hit }));
+        hits.keep(2, Seen { proved: false, ..hit }, None);
         assert_eq!(likely(&hits, &frame, 0, 1, TOLERANCE), 0.5, "what is not proved to be a hit has no light");
     }
 }

@@ -18,6 +18,7 @@ mod irradiance;
 mod legend;
 mod likely;
 mod overlay;
+mod passes;
 mod pixel;
 mod planes;
 mod progress;

@@ -1,26 +1,20 @@
 //! The progressive renderer.
 use super::book::Book;
-use super::by_paper;
-use super::by_proof::{self, BLOCK};
-use super::crease;
+use super::by_proof::BLOCK;
 use super::crew::{Clock, Crew, std_clock};
 use super::given::{Given, Traced};
 use super::spare::Spare;
 use super::state::{self, StateError, Stopped};
 use super::task::Task;
-use super::visibility;
 use super::window::Window;
 use super::{Error, Frame, Method, RenderSpec, RunSpec, Stats};
-use crate::eval::Occupancy;
 use crate::grid::Grid;
 use crate::scene::Scene;
-use num_integer::Integer;
-use rayon::prelude::*;
 use serde::{Deserialize, Serialize};
 use std::io::{Read, Seek, Write};
 use std::ops::Range;
 use std::sync::Arc;
-use std::sync::atomic::{AtomicBool, AtomicUsize, Ordering};
+use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Draws one scene. Ask it to [`refine`](Self::refine) until it is done; look at [`frame`](Self::frame) and
@@ -32,16 +26,16 @@ pub struct Renderer {
     /// Whether hits are on parts of unions. Once they are, they are so for every method.
     divided: bool,
     pub(super) crew: Crew,
-    clock: Clock,
-    grids: Vec<Grid>,
+    pub(super) clock: Clock,
+    pub(super) grids: Vec<Grid>,
     pub(super) book: Book,
     pub(super) given: Option<Given>,
     pub(super) traced: Option<Traced>,
     pub(super) stage: Stage,
-    part: Part,
+    pub(super) part: Part,
     pub(super) next_tile: usize,
-    stop: Arc<AtomicBool>,
-    spare: Spare,
+    pub(super) stop: Arc<AtomicBool>,
+    pub(super) spare: Spare,
     /// Hits get their colours with their light only.
     pub(super) late_colors: bool,
 }
@@ -62,12 +56,12 @@ pub(super) enum Stage {
 /// Which tiles are drawn: every `of`-th, beginning with the one that comes as number `number`.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub(super) struct Part {
-    number: usize,
-    of: usize,
+    pub(super) number: usize,
+    pub(super) of: usize,
 }
 
 impl Part {
-    const WHOLE: Self = Self { number: 0, of: 1 };
+    pub(super) const WHOLE: Self = Self { number: 0, of: 1 };
 }
 
 impl Renderer {
@@ -280,198 +274,18 @@ impl Renderer {
         self.next_tile as f64 / self.turns().max(1) as f64
     }
 
-    fn tiles(&self) -> usize {
+    pub(super) fn tiles(&self) -> usize {
         let rows = self.rows();
         self.task.film.width.div_ceil(BLOCK) * (rows.end.div_ceil(BLOCK) - rows.start / BLOCK)
     }
 
     /// Rows that this stage works on; they begin at the border of a tile.
-    fn rows(&self) -> Range<usize> {
+    pub(super) fn rows(&self) -> Range<usize> {
         if self.stage == Stage::Edges { self.task.window.finished() } else { self.task.window.fresh() }
     }
 
     /// Tiles of the part that is drawn here.
-    fn turns(&self) -> usize {
+    pub(super) fn turns(&self) -> usize {
         self.tiles().saturating_sub(self.part.number).div_ceil(self.part.of)
     }
-
-    /// Left column and top row of the tile that comes as number `turn`. The order is scattered over the picture, by the
-    /// golden section: then any number of tiles is a fair sample of all.
-    fn corner(&self, turn: usize) -> (usize, usize) {
-        let (n, across) = (self.tiles(), self.task.film.width.div_ceil(BLOCK));
-        // Some 0.618 n and without a common divisor with n: every tile has its turn. At most 2^22 tiles: no overflow.
-        let stride = (n * 377 / 610..).find(|s| s.gcd(&n) == 1).unwrap_or(1);
-        let tile = turn * stride % n;
-        (tile % across * BLOCK, self.rows().start + tile / across * BLOCK)
-    }
-
-    /// Pixels of the tile that comes as number `turn`, as indices of the planes.
-    fn pixels(&self, turn: usize) -> impl Iterator<Item = usize> + use<> {
-        let (column, row) = self.corner(turn);
-        by_proof::indices(&self.task, (column, row, BLOCK))
-    }
-
-    fn build_grids(&mut self) {
-        let (task, n) = (&self.task, self.spec.grid);
-        self.grids = self.crew.install(|| by_paper::grids(task, n));
-        self.book.stats.grid_evaluations = self.grids.iter().map(Grid::evaluations).sum();
-    }
-
-    /// One batch of tiles, or what comes between them. After the deadline no tile is begun but one for each thread.
-    fn step(&mut self, deadline: Duration) {
-        match self.stage {
-            Stage::Grid => {
-                match (self.task.method, &self.traced) {
-                    (Method::Paper(_), None) => self.build_grids(),
-                    (_, Some(traced)) => self.book.stats.grid_evaluations = traced.grid_evaluations,
-                    (Method::Certified, None) => {}
-                }
-                self.stage = Stage::Primary;
-                return;
-            }
-            Stage::Done | Stage::Parted => return,
-            Stage::Primary | Stage::Shadow | Stage::Edges => {}
-        }
-        // Threads wait for each other at the end of a batch, and its results are kept until then: those of shadows, whose tiles
-        // differ most, are small.
-        let most = match self.stage {
-            Stage::Primary => 32,
-            _ => 256,
-        };
-        let batch =
-            Batch { tiles: self.next_tile..(self.next_tile + most * self.crew.size()).min(self.turns()), deadline };
-        self.next_tile += match self.stage {
-            Stage::Primary => self.primary(&batch),
-            Stage::Shadow => self.shadows(&batch),
-            _ => self.creases(&batch),
-        };
-        if self.next_tile == self.turns() {
-            self.next_tile = 0;
-            self.stage = match self.stage {
-                Stage::Primary => Stage::Shadow,
-                // Edges look at the neighbours of pixels, which others draw.
-                Stage::Shadow if self.part != Part::WHOLE => Stage::Parted,
-                Stage::Shadow => Stage::Edges,
-                _ => {
-                    let pixels = self.task.indices(self.task.window.finished());
-                    self.book.finish_colors(&self.task, pixels);
-                    Stage::Done
-                }
-            };
-        }
-    }
-
-    /// Finds the hits of tiles and tells how many of them are done: all, unless it is asked to stop.
-    fn primary(&mut self, batch: &Batch) -> usize {
-        let this = &*self;
-        let found = this.each(batch, |turn| match this.task.method {
-            Method::Certified => {
-                let (column, row) = this.corner(turn);
-                let mut scratch = this.spare.take();
-                let found = visibility::primary(&this.task, column, row, this.given.as_ref(), &mut scratch);
-                this.spare.give(scratch);
-                found
-            }
-            Method::Paper(_) => {
-                let pixels = this.pixels(turn);
-                let found = match &this.traced {
-                    Some(traced) => by_paper::traced_primary(&this.task, traced, pixels),
-                    None => by_paper::primary(&this.task, &this.grids, pixels, this.task.method.uses_rays()),
-                };
-                (found, Occupancy::default())
-            }
-        });
-        let done = found.len();
-        let mut pixels = Vec::with_capacity(done * BLOCK * BLOCK);
-        for (tile, occupancy) in found {
-            self.book.put_occupancy(&occupancy);
-            for pixel in tile {
-                pixels.push(pixel.index);
-                self.book.put_pixel(&self.task, pixel);
-            }
-        }
-        self.put_first_colors(pixels);
-        done
-    }
-
-    /// Finds the shadows of tiles and tells how many of them are done.
-    fn shadows(&mut self, batch: &Batch) -> usize {
-        let this = &*self;
-        let found = this.each(batch, |turn| match this.task.method {
-            Method::Certified => {
-                let (column, row) = this.corner(turn);
-                let receiver = |index| this.book.hit(index).and_then(|h| h.receiver.as_ref());
-                by_proof::shadows(&this.task, column, row, &receiver, this.given.as_ref())
-            }
-            Method::Paper(method) => {
-                let hits = this.pixels(turn).filter_map(|index| Some((index, this.book.hit(index)?.point)));
-                match &this.traced {
-                    Some(traced) => by_paper::traced_shadows(&this.task, traced, hits.map(|(index, _)| index)),
-                    None => by_paper::shadows(&this.task, &this.grids, method, hits),
-                }
-            }
-        });
-        let done = found.len();
-        let mut pixels = Vec::with_capacity(done * BLOCK * BLOCK);
-        for light in found.into_iter().flatten() {
-            pixels.push(light.index);
-            self.book.put_light(&self.task, &light);
-        }
-        // A pixel with several lights once.
-        pixels.sort_unstable();
-        pixels.dedup();
-        self.put_colors(&pixels, true);
-        done
-    }
-
-    /// Looks closer at inner edges in tiles and tells how many of them are done. The paper's pictures have none.
-    fn creases(&mut self, batch: &Batch) -> usize {
-        if self.task.method != Method::Certified {
-            return batch.tiles.len();
-        }
-        let this = &*self;
-        let found = this.each(batch, |turn| {
-            let pixels = this.book.creases(&this.task, this.pixels(turn));
-            let mut scratch = this.spare.take();
-            let edges = crease::grids(&this.task, &pixels, &mut scratch);
-            this.spare.give(scratch);
-            edges
-        });
-        let done = found.len();
-        found.into_iter().for_each(|edges| self.book.put_creases(edges));
-        done
-    }
-
-    /// The work of the tiles of a batch, in their order, as far as it was done. Each thread takes the next tile when it has done one:
-    /// whatever is begun is done, so what is done has no gaps.
-    fn each<T: Send>(&self, batch: &Batch, work: impl Fn(usize) -> T + Sync) -> Vec<T> {
-        let (Part { number, of }, Range { start, end }) = (self.part, batch.tiles.clone());
-        let next = AtomicUsize::new(start);
-        let threads = self.crew.size();
-        let go_on = || {
-            let first = next.load(Ordering::Relaxed) < start + threads;
-            !self.stop.load(Ordering::Relaxed) && (first || (self.clock)() < batch.deadline)
-        };
-        let tiles = |_| {
-            let mut done = Vec::new();
-            while go_on() {
-                let turn = next.fetch_add(1, Ordering::Relaxed);
-                if turn >= end {
-                    break;
-                }
-                done.push((turn, work(number + turn * of)));
-            }
-            done
-        };
-        let of_threads = (0..threads).into_par_iter().with_max_len(1).map(tiles);
-        let mut done: Vec<(usize, T)> = self.crew.install(|| of_threads.flatten_iter().collect());
-        done.sort_unstable_by_key(|(turn, _)| *turn);
-        done.into_iter().map(|(_, tile)| tile).collect()
-    }
-}
-
-/// Tiles to be worked on, and when to stop beginning with others.
-struct Batch {
-    tiles: Range<usize>,
-    deadline: Duration,
 }

@@ -42,6 +42,19 @@ pub(super) fn backdrop(behind: &Backdrop, film: &Film, column: f64, row: f64) ->
     behind.color.map(|c| c * fall)
 }
 
+/// `base^exponent`, within some `2 exponent` roundings: much faster than a correctly rounded power.
+fn power(mut base: f64, mut exponent: u32) -> f64 {
+    let mut product = 1.0;
+    while exponent > 0 {
+        if exponent % 2 == 1 {
+            product *= base;
+        }
+        base *= base;
+        exponent /= 2;
+    }
+    product
+}
+
 /// The colour of a point under lights, seen from a camera (`eye` and `target`).
 pub(super) fn shade<'a>(
     p: &Point,
@@ -58,11 +71,11 @@ pub(super) fn shade<'a>(
         Point { floor: true, .. } => FLOOR,
         Point { color, .. } => *color,
     };
+    // A thin rim of light where the surface turns away gives shape to the shadows.
+    let turned = 1.0 - p.normal.dot(to_eye).abs();
+    let rim = 0.10 * turned * turned * turned;
     let mut color: [f64; 3] = std::array::from_fn(|i| {
         let fill = sky.below[i] + (sky.above[i] - sky.below[i]) * up;
-        // A thin rim of light where the surface turns away gives shape to the shadows.
-        let turned = 1.0 - p.normal.dot(to_eye).abs();
-        let rim = 0.10 * turned * turned * turned;
         base[i] * fill + rim * sky.above[i]
     });
     let reflection = if p.floor { Finish::Matte } else { p.finish }.reflection();
@@ -74,9 +87,13 @@ pub(super) fn shade<'a>(
         // The visible fraction counts what the horizon cuts off, and so does the form factor: once is enough.
         let visible = lamp.visible.map_or(1.0, |visible| (visible / got.above).min(1.0));
         let diffuse = reflection.diffuse * visible * got.form / lamp.full;
-        let to_light = (lamp.light.rect.center - p.position).normalized();
-        let half = (to_light + to_eye).normalized();
-        let gloss = reflection.strength * core_math::pow(p.normal.dot(half).max(0.0), reflection.exponent);
+        let gloss = if reflection.strength > 0.0 {
+            let to_light = (lamp.light.rect.center - p.position).normalized();
+            let half = (to_light + to_eye).normalized();
+            reflection.strength * power(p.normal.dot(half).max(0.0), reflection.exponent)
+        } else {
+            0.0
+        };
         for i in 0..3 {
             let tint = 1.0 + (base[i] - 1.0) * reflection.tint;
             color[i] += lamp.light.color[i] * (base[i] * diffuse + visible * gloss * tint);
@@ -90,4 +107,19 @@ pub(super) fn shade<'a>(
     let far = ((p.position - eye).length() - aside) / (8.0 * scale);
     let fade = (far - 0.6).clamp(0.0, 1.0);
     std::array::from_fn(|i| color[i] + (backdrop[i] - color[i]) * fade)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn powers_are_powers() {
+        for exponent in [0, 1, 2, 36, 48, 220] {
+            for base in [0.0, 0.3, 0.97, 1.0] {
+                let (got, want) = (power(base, exponent), core_math::pow(base, f64::from(exponent)));
+                assert!((got - want).abs() <= 1e-13 * want, "{base}^{exponent}: {got}, not {want}");
+            }
+        }
+    }
 }

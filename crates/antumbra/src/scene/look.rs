@@ -27,7 +27,7 @@ pub struct Reflection {
     /// Strength of the highlight.
     pub strength: f64,
     /// Its exponent (Blinn and Phong).
-    pub exponent: f64,
+    pub exponent: u32,
     /// Share of the surface's colour in the highlight's.
     pub tint: f64,
 }
@@ -42,10 +42,10 @@ impl Finish {
     pub fn reflection(self) -> Reflection {
         let of = |diffuse, strength, exponent, tint| Reflection { diffuse, strength, exponent, tint };
         match self {
-            Self::Matte => of(1.0, 0.0, 1.0, 0.0),
-            Self::Satin => of(1.0, 0.22, 48.0, 0.0),
-            Self::Gloss => of(0.95, 0.55, 220.0, 0.0),
-            Self::Metal => of(0.55, 1.1, 36.0, 1.0),
+            Self::Matte => of(1.0, 0.0, 1, 0.0),
+            Self::Satin => of(1.0, 0.22, 48, 0.0),
+            Self::Gloss => of(0.95, 0.55, 220, 0.0),
+            Self::Metal => of(0.55, 1.1, 36, 1.0),
         }
     }
 }
