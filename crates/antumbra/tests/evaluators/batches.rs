@@ -108,6 +108,18 @@ fn forms_agree(
     compare!(jet_slopes, jet_slope, Jet::<Affine<3>>::UNKNOWN, |(value, _, direction, apex)| {
         SlopeOf { apex, value: jet(value, direction), slope: jet(direction, Affine::ZERO) }
     });
+    let wide = |x: Affine<3>, shift: f64| {
+        let [a, b, c] = *x.coefficients();
+        Affine::<5>::linear(x.centre() + shift, [a, b, c, 0.5 * b, 0.1 * a], x.error())
+    };
+    compare!(shafts, shaft, Affine::ZERO, |(value, _, _, _)| wide(value, 0.0));
+    compare!(shaft_slopes, shaft_slope, Affine::ZERO, |(value, _, direction, apex)| {
+        SlopeOf {
+            apex: Affine::constant(apex) + wide(direction, 0.1),
+            value: wide(value, 0.3),
+            slope: wide(direction, 0.0),
+        }
+    });
     compare!(abouts, about, PointJet::default(), |(value, _, direction, _)| {
         PointJet { value: value.centre(), first: direction.centre(), second: 0.0 }
     });

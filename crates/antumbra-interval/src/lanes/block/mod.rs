@@ -73,7 +73,8 @@ enum Operation {
 }
 
 /// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`], [`Dual`], [`PointJet`](crate::PointJet),
-/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes: only for these.
+/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes: only for these. (Slopes of both from
+/// intervals, and of affine forms from affine forms.)
 pub trait Packed: Copy + sealed::Sealed {
     /// Numbers in it.
     const COMPONENTS: usize;
