@@ -1,5 +1,5 @@
 //! The one public trait: what the renderer needs to know of a function.
-use super::batch::{self, FanPiece, Occupancy, RayPiece, Unasked};
+use super::batch::{self, FanPiece, Occupancy, RayPiece, ShaftPiece, Unasked};
 use super::{Gradient, PointJet, Regions, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
@@ -193,13 +193,13 @@ pub trait Inclusion: Send + Sync {
     }
 
     /// [`shaft`](Self::shaft) over many pieces. Panics unless there are as many answers as questions.
-    fn shafts(&self, points: &[ShaftPoint], out: &mut [Affine<5>], work: &mut Workspace) {
-        one_by_one(points, out, |point| self.shaft(point, work));
+    fn shafts(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        one_by_one(pieces, out, |piece| self.shaft(piece.point(), work));
     }
 
     /// [`shaft_slope`](Self::shaft_slope) over many pieces. Panics unless there are as many answers as questions.
-    fn shaft_slopes(&self, points: &[ShaftSlopePoint], out: &mut [Affine<5>], work: &mut Workspace) {
-        one_by_one(points, out, |point| self.shaft_slope(point, work));
+    fn shaft_slopes(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        one_by_one(pieces, out, |piece| self.shaft_slope(piece.slopes(), work));
     }
 
     /// [`about`](Self::about) at many points. Panics unless there are as many answers as questions.
@@ -398,14 +398,14 @@ impl Inclusion for Tape {
         the_rest(unasked, points, out, |point| self.jet_slope(point, work));
     }
 
-    fn shafts(&self, points: &[ShaftPoint], out: &mut [Affine<5>], work: &mut Workspace) {
-        let unasked = work.batch.forms().answer(self, points, out, |x| x);
-        the_rest(unasked, points, out, |point| self.shaft(point, work));
+    fn shafts(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        let unasked = work.batch.forms().shafts(self, pieces, out);
+        the_rest(unasked, pieces, out, |piece| self.shaft(piece.point(), work));
     }
 
-    fn shaft_slopes(&self, points: &[ShaftSlopePoint], out: &mut [Affine<5>], work: &mut Workspace) {
-        let unasked = work.batch.forms().answer(self, points, out, |x| x.slope);
-        the_rest(unasked, points, out, |point| self.shaft_slope(point, work));
+    fn shaft_slopes(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        let unasked = work.batch.forms().shaft_slopes(self, pieces, out);
+        the_rest(unasked, pieces, out, |piece| self.shaft_slope(piece.slopes(), work));
     }
 
     fn abouts(&self, points: &[[PointJet; 3]], out: &mut [PointJet], work: &mut Workspace) {

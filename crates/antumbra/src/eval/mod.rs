@@ -25,7 +25,7 @@ mod sieve;
 pub mod wgsl;
 
 pub use antumbra_interval::PointJet;
-pub use batch::{FanPiece, Occupancy, RayPiece};
+pub use batch::{FanPiece, Occupancy, RayPiece, ShaftPiece};
 pub use gradient::Gradient;
 pub use inclusion::{
     BeamPoint, Inclusion, JetPoint, JetSlopePoint, QuadraticPoint, QuadraticSlopePoint, ShaftPoint, ShaftSlopePoint,

@@ -7,7 +7,7 @@ use antumbra_interval::round::{add_down, add_up};
 use smallvec::{SmallVec, smallvec};
 
 /// A part of a light, and the pieces of the beam to it in which something may be in the way.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct Part {
     /// Parameters u, v of the light.
     pub part: [Interval; 2],
@@ -17,7 +17,7 @@ pub struct Part {
 
 /// Parts of a light that some hits see or do not see, all of them, and the parts that are open. By default nothing of it is left: what there
 /// is before parts are booked.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug, Default, PartialEq)]
 pub struct Known {
     /// Bounds of the share of the light that is certainly seen.
     lit: [f64; 2],

@@ -147,6 +147,12 @@ impl Places {
     }
 }
 
+/// Slopes, and the same with their signs turned.
+pub(super) fn both_signs([x, y, z]: [[f64; 2]; 3]) -> [[f64; 2]; 6] {
+    let turned = |slope: [f64; 2]| slope.map(|s| -s);
+    [x, y, z, turned(x), turned(y), turned(z)]
+}
+
 /// A plane fits badly if its error is a quarter of the extent.
 pub(super) fn rough(roughness: f64, extent: f64) -> bool {
     4.0 * roughness > extent

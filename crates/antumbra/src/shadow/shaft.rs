@@ -1,11 +1,11 @@
 //! Shafts: all hits of a tile of the screen as one linear function.
 use super::occluders::Receiver;
-use super::policy::{Places, divide_light, rough, size};
+use super::policy::{Places, both_signs, divide_light, rough, size};
 use crate::geom::{Box3, Rect, axes};
 use crate::trace::Sign;
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
-use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
+use antumbra_interval::round::{add_up, mul_up, sub_down};
 
 /// A hit at its place on the screen.
 #[derive(Clone, Copy, Debug)]
@@ -16,13 +16,16 @@ pub struct Placed {
     pub receiver: Receiver,
     /// About where it is.
     mid: [f64; 3],
+    /// Lower bounds of its coordinates, and of these with their signs turned.
+    ends: [f64; 6],
 }
 
 impl Placed {
     /// The hit of a pixel, at a column and a row.
     #[must_use]
     pub fn new(place: [u32; 2], receiver: Receiver) -> Self {
-        Self { place, mid: receiver.point.mid().0, receiver }
+        let [x, y, z] = receiver.point.0;
+        Self { place, mid: receiver.point.mid().0, ends: [x, y, z, -x, -y, -z].map(Interval::lo), receiver }
     }
 }
 
@@ -56,21 +59,27 @@ impl Shaft {
         }
         let place = Places::of(hits.clone().map(|hit| hit.place));
         let slopes = place.slopes(hits.clone().map(|hit| (hit.place, hit.mid)));
-        let mut rest = [Interval::EMPTY; 3];
-        // Bounds of `b_k dj` in a row: hits come row by row.
-        let (mut row, mut down) = (None, [[0.0; 2]; 3]);
+        // Of both bounds of the three coordinates, as lower bounds: of P_k - a_k di - b_k dj, and of the same with all signs turned. One formula
+        // for six numbers, without branches: vectors have it. (None is NaN: points are in intervals, slopes and offsets are finite.)
+        let turned = both_signs(slopes);
+        let (mut row, mut by_row, mut least) = (None, [0.0; 6], [f64::INFINITY; 6]);
         for hit in hits {
             let [di, dj] = place.offset(hit.place);
+            // Hits come row by row.
             if row != Some(hit.place[1]) {
                 row = Some(hit.place[1]);
-                down = slopes.map(|[_, b]| [mul_down(b, dj), mul_up(b, dj)]);
+                by_row = turned.map(|[_, b]| mul_up(b, dj));
             }
-            for k in 0..3 {
-                let (point, [a, _], [low, high]) = (hit.receiver.point[k], slopes[k], down[k]);
-                let below = sub_down(point.lo(), add_up(mul_up(a, di), high));
-                let above = sub_up(point.hi(), add_down(mul_down(a, di), low));
-                rest[k] = rest[k].hull(Interval::try_new(below, above)?);
+            let by_column = turned.map(|[a, _]| mul_up(a, di));
+            for k in 0..6 {
+                let bound = sub_down(hit.ends[k], add_up(by_column[k], by_row[k]));
+                least[k] = if least[k] < bound { least[k] } else { bound };
             }
+        }
+        let mut rest = [Interval::EMPTY; 3];
+        for (k, rest) in rest.iter_mut().enumerate() {
+            // Exact: a term is 0.
+            *rest = Interval::try_new(least[k], sub_down(0.0, least[k + 3]))?;
         }
         let (mut extent, mut roughness) = (0.0_f64, 0.0_f64);
         let apex = axes(|k| {

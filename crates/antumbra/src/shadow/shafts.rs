@@ -4,11 +4,11 @@ use super::known::{Known, Part};
 use super::occluders::{Front, Receiver, front, hides, no_zero};
 use super::policy::{halves, long_in_shaft, shaft_slope_pays, size};
 use super::shaft::Shaft;
-use crate::eval::{ShaftPoint, ShaftSlopePoint, Workspace};
+use crate::eval::{ShaftPiece, ShaftPoint, Workspace};
 use crate::geom::{Box3, Fan, Passage, Rect, axes};
 use crate::trace::{Cost, Piece, Sign, Surface};
 use antumbra_interval::Interval;
-use antumbra_interval::affine::{Affine, Slope};
+use antumbra_interval::affine::Affine;
 use antumbra_interval::round::{add_up, sub_up};
 use smallvec::SmallVec;
 
@@ -35,8 +35,8 @@ pub(super) struct Scratch {
 /// What is asked about one surface in a round, and the answers.
 #[derive(Debug, Default)]
 struct Asked {
-    points: Vec<ShaftPoint>,
-    slopes: Vec<ShaftSlopePoint>,
+    points: Vec<ShaftPiece>,
+    slopes: Vec<ShaftPiece>,
     at_points: Vec<Affine<5>>,
     of_slopes: Vec<Affine<5>>,
 }
@@ -171,12 +171,8 @@ impl Asked {
     }
 
     fn push(&mut self, shaft: &Shaft, beam: &Beam, look: Look) {
-        let along = Affine::<5>::spanning(0, look.piece.t);
-        if look.slope {
-            self.slopes.push(axes(|k| Slope::coordinate(shaft.apex[k], along, beam.direction[k])));
-        } else {
-            self.points.push(axes(|k| along * beam.direction[k] + shaft.apex[k]));
-        }
+        let piece = ShaftPiece { apex: shaft.apex, direction: beam.direction, t: look.piece.t };
+        if look.slope { &mut self.slopes } else { &mut self.points }.push(piece);
     }
 
     fn answer(&mut self, surface: &Surface<'_>, work: &mut Workspace) {
@@ -354,7 +350,7 @@ impl Beam {
     ) -> bool {
         let (at, Side { front, passage }) = (&surfaces[surface], self.sides[surface]);
         let region = |t| Box3(axes(|k| shaft.region[k] + t * self.directions[k]));
-        if form.range() == Interval::ENTIRE && no_zero(at.function, &region(t), work, cost) {
+        if !form.is_known() && no_zero(at.function, &region(t), work, cost) {
             return true;
         }
         let form = if front.is_some_and(|f| f.sign == Sign::Negative) { -form } else { form };

@@ -3,7 +3,7 @@ use super::policy;
 use super::valid::Valid;
 use crate::eval::{
     BeamPoint, FanPiece, Gradient, Inclusion, JetPoint, JetSlopePoint, PointJet, QuadraticPoint, QuadraticSlopePoint,
-    RayPiece, ShaftPoint, ShaftSlopePoint, Workspace,
+    RayPiece, ShaftPiece, ShaftPoint, ShaftSlopePoint, Workspace,
 };
 use crate::geom::Box3;
 use crate::tape::Tape;
@@ -291,14 +291,14 @@ impl Inclusion for Regions {
         self.ask_all(points, out, region, |tape, points, out| tape.jet_slopes(points, out, work));
     }
 
-    fn shafts(&self, points: &[ShaftPoint], out: &mut [Affine<5>], work: &mut Workspace) {
-        let region = |point: &ShaftPoint| Box3(point.map(|x| x.range()));
-        self.ask_all(points, out, region, |tape, points, out| tape.shafts(points, out, work));
+    fn shafts(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        let region = |piece: &ShaftPiece| Box3(piece.point().map(|x| x.range()));
+        self.ask_all(pieces, out, region, |tape, pieces, out| tape.shafts(pieces, out, work));
     }
 
-    fn shaft_slopes(&self, points: &[ShaftSlopePoint], out: &mut [Affine<5>], work: &mut Workspace) {
-        let region = |point: &ShaftSlopePoint| Box3(point.map(|x| x.apex.range().hull(x.value.range())));
-        self.ask_all(points, out, region, |tape, points, out| tape.shaft_slopes(points, out, work));
+    fn shaft_slopes(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        let region = |piece: &ShaftPiece| Box3(piece.slopes().map(|x| x.apex.range().hull(x.value.range())));
+        self.ask_all(pieces, out, region, |tape, pieces, out| tape.shaft_slopes(pieces, out, work));
     }
 
     fn abouts(&self, points: &[[PointJet; 3]], out: &mut [PointJet], work: &mut Workspace) {
