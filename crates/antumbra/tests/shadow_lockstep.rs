@@ -108,8 +108,10 @@ fn company_and_instructions_change_nothing_of_what_tiles_learn() {
     ] {
         let objects = [object("z"), object(occluder)];
         let wrapped = Own(objects[1].surface.as_ref());
-        let mut surfaces: Vec<Surface<'_>> =
-            objects.iter().map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() }).collect();
+        let mut surfaces: Vec<Surface<'_>> = objects
+            .iter()
+            .map(|o| Surface { function: o.surface.as_ref(), clip: o.clip(), region: o.region() })
+            .collect();
         if own {
             surfaces[1].function = &wrapped;
         }
@@ -145,5 +147,5 @@ fn company_and_instructions_change_nothing_of_what_tiles_learn() {
             }
         }
     }
-    assert!(lit > 20 && dark > 5 && open > 20 && divided > 20, "{lit} {dark} {open} {divided}");
+    assert!(lit > 10 && dark > 20 && open > 20 && divided > 20, "{lit} {dark} {open} {divided}");
 }

@@ -93,13 +93,14 @@ pub(super) fn shadows<'a>(
         }
     }
     let mut hits = Hits::default();
-    for index in indices(task, (column, row, BLOCK)) {
-        if let Some(receiver) = receiver_of(index) {
-            let (column, row) = task.place(index);
-            hits.placed.push(Placed::new([column as u32, row as u32], *receiver));
-            hits.pixels.push(index);
-        }
-    }
+    let proved = |index| Some((index, receiver_of(index)?));
+    let proved: Vec<(usize, &Receiver)> = indices(task, (column, row, BLOCK)).filter_map(proved).collect();
+    let placed = |&(index, receiver): &(usize, &Receiver)| {
+        let (column, row) = task.place(index);
+        Placed::new([column as u32, row as u32], *receiver)
+    };
+    hits.placed.extend(proved.iter().map(placed));
+    hits.pixels.extend(proved.iter().map(|(index, _)| index));
     let mut groups = Vec::new();
     let (nothing, corner) = (Rc::new(Known::nothing(&surfaces)), [column as u32, row as u32]);
     for light in 0..task.lights.len() {
@@ -114,7 +115,7 @@ pub(super) fn shadows<'a>(
     // Level by level, so that the shafts of all blocks of a level go in lockstep.
     let (mut side, mut done) = (BLOCK as u32, Vec::new());
     while !groups.is_empty() {
-        let (mut tiles, mut places) = (Vec::new(), Vec::new());
+        let (mut tiles, mut places) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
         for (place, group) in groups.iter().enumerate().filter(|(_, group)| group.hits.len() >= 2) {
             if let Some(shaft) = Shaft::fit(hits.of(group))
                 && (side <= 4 || !shaft.rough())

@@ -59,8 +59,8 @@ impl Shaft {
         }
         let place = Places::of(hits.clone().map(|hit| hit.place));
         let slopes = place.slopes(hits.clone().map(|hit| (hit.place, hit.mid)));
-        // Of both bounds of the three coordinates, as lower bounds: of P_k - a_k di - b_k dj, and of the same with all signs turned. One formula
-        // for six numbers, without branches: vectors have it. (None is NaN: points are in intervals, slopes and offsets are finite.)
+        // Of both bounds of the three coordinates, as lower bounds: of P_k - a_k di - b_k dj, and of the same with all signs turned. One
+        // formula for six numbers, for vectors. (None is NaN: points are in intervals, slopes and offsets are finite.)
         let turned = both_signs(slopes);
         let (mut row, mut by_row, mut least) = (None, [0.0; 6], [f64::INFINITY; 6]);
         for hit in hits {
@@ -68,9 +68,11 @@ impl Shaft {
             // Hits come row by row.
             if row != Some(hit.place[1]) {
                 row = Some(hit.place[1]);
-                by_row = turned.map(|[_, b]| mul_up(b, dj));
+                (0..6).for_each(|k| by_row[k] = mul_up(turned[k][1], dj));
             }
-            let by_column = turned.map(|[a, _]| mul_up(a, di));
+            // A loop of its own: products branch where one vanishes.
+            let mut by_column = [0.0; 6];
+            (0..6).for_each(|k| by_column[k] = mul_up(turned[k][0], di));
             for k in 0..6 {
                 let bound = sub_down(hit.ends[k], add_up(by_column[k], by_row[k]));
                 least[k] = if least[k] < bound { least[k] } else { bound };

@@ -92,7 +92,8 @@ struct Search {
 /// The beams from all hits of a tile to a part of the light.
 #[derive(Debug)]
 struct Beam {
-    part: [Interval; 2],
+    /// `None` if it is settled.
+    part: Option<[Interval; 2]>,
     /// Over (t, u, v, i, j).
     direction: [Affine<5>; 3],
     directions: Box3,
@@ -129,6 +130,7 @@ pub fn look(
 ) {
     let Scratch { searches, active, asked, target } = &mut scratch.shafts;
     active.clear();
+    searches.reserve(tiles.len().saturating_sub(searches.len()));
     for (k, tile) in tiles.iter().enumerate() {
         if searches.len() == k {
             searches.push(Search::new());
@@ -186,9 +188,8 @@ impl Asked {
 
 impl Search {
     fn new() -> Self {
-        let unit = Interval::new(-1.0, 1.0);
         let beam = Beam {
-            part: [unit; 2],
+            part: None,
             direction: [Affine::ZERO; 3],
             directions: Box3([Interval::ZERO; 3]),
             distance: 0.0,
@@ -207,15 +208,27 @@ impl Search {
         self.cost = Cost::default();
         self.inherited = tile.known.open.len();
         self.quarters.clear();
-        self.asked = if self.next_part(surfaces, tile, target, work) {
-            self.next_look(surfaces, tile, target, work)
-        } else {
-            None
-        };
+        self.beam.part = None;
+        self.beam.stack.clear();
+        self.go_on(surfaces, tile, target, work);
     }
 
     fn looks_at(&self, surface: usize) -> Option<Look> {
         self.asked.filter(|look| look.piece.surface == surface)
+    }
+
+    /// The next piece to look at, in this part of the light or in a later one.
+    fn go_on(&mut self, surfaces: &[Surface<'_>], tile: &Tile<'_>, target: &mut Option<Target>, work: &mut Workspace) {
+        self.asked = loop {
+            if let Some(look) = self.beam.next(&tile.shaft) {
+                self.cost.evaluations += 1;
+                break Some(look);
+            }
+            self.part_done(tile);
+            if !self.next_part(surfaces, tile, target, work) {
+                break None;
+            }
+        };
     }
 
     /// Turns to the next part of the light, if there is one.
@@ -236,40 +249,15 @@ impl Search {
             return false;
         };
         self.cost.beams += 1;
-        self.beam.towards(surfaces, tile, part, target, work, &mut self.cost);
-        self.beam.stack.clear();
+        self.beam.turn(surfaces, tile, part, target, work, &mut self.cost);
         self.beam.stack.extend(pieces.iter().rev());
         true
     }
 
-    /// The next piece to look at, in this part of the light or in a later one.
-    fn next_look(
-        &mut self,
-        surfaces: &[Surface<'_>],
-        tile: &Tile<'_>,
-        target: &mut Option<Target>,
-        work: &mut Workspace,
-    ) -> Option<Look> {
-        loop {
-            while let Some(Piece { surface, t }) = self.beam.stack.pop() {
-                let t = t.intersection(self.beam.sides[surface].passage.outer);
-                if !t.is_empty() {
-                    self.cost.evaluations += 1;
-                    // At t = 0 only the slope tells anything.
-                    let slope = surface == tile.shaft.surface && (shaft_slope_pays(t) || t.lo() == 0.0);
-                    return Some(Look { piece: Piece { surface, t }, slope });
-                }
-            }
-            self.part_done(tile);
-            if !self.next_part(surfaces, tile, target, work) {
-                return None;
-            }
-        }
-    }
-
     /// All pieces of the part have been looked at: books it.
     fn part_done(&mut self, tile: &Tile<'_>) {
-        let (part, open) = (self.beam.part, &self.beam.open);
+        let Some(part) = self.beam.part.take() else { return };
+        let open = &self.beam.open;
         if open.is_empty() {
             self.known.lit(part);
         } else if self.known.whole() && tile.shaft.narrow_against(tile.light) {
@@ -289,22 +277,31 @@ impl Search {
         target: &mut Option<Target>,
         work: &mut Workspace,
     ) {
-        if self.beam.looked(surfaces, &tile.shaft, piece, form, work, &mut self.cost) {
-            self.asked = self.next_look(surfaces, tile, target, work);
-        } else {
+        if !self.beam.looked(surfaces, &tile.shaft, piece, form, work, &mut self.cost) {
             self.known.shaded();
-            self.asked = if self.next_part(surfaces, tile, target, work) {
-                self.next_look(surfaces, tile, target, work)
-            } else {
-                None
-            };
+            self.beam.part = None;
+            self.beam.stack.clear();
         }
+        self.go_on(surfaces, tile, target, work);
     }
 }
 
 impl Beam {
+    /// The next piece to look at.
+    fn next(&mut self, shaft: &Shaft) -> Option<Look> {
+        while let Some(Piece { surface, t }) = self.stack.pop() {
+            let t = t.intersection(self.sides[surface].passage.outer);
+            if !t.is_empty() {
+                // At t = 0 only the slope tells anything.
+                let slope = surface == shaft.surface && (shaft_slope_pays(t) || t.lo() == 0.0);
+                return Some(Look { piece: Piece { surface, t }, slope });
+            }
+        }
+        None
+    }
+
     /// Turns it to a part of the light.
-    fn towards(
+    fn turn(
         &mut self,
         surfaces: &[Surface<'_>],
         tile: &Tile<'_>,
@@ -318,7 +315,7 @@ impl Beam {
             Some(target) if target.shows(tile.light, part) => target,
             other => other.insert(Target::of(tile.light, part)),
         };
-        (self.part, self.width) = (part, target.width);
+        (self.part, self.width) = (Some(part), target.width);
         self.direction = axes(|k| target.point[k] - shaft.apex[k]);
         self.directions = Box3(self.direction.map(|d| d.range()));
         self.distance = (0..3).map(|k| self.directions[k].magnitude()).fold(0.0, f64::max);
