@@ -159,6 +159,13 @@ fn jets() {
     agree(|g| slope(g, jet::<3>), 11, 400);
 }
 
+/// Also from apexes and values whose powers are those of narrow ranges, and of ranges beside 0.
+#[test]
+fn slopes_from_forms() {
+    agree(|g| SlopeOf { apex: affine::<5>(g), value: affine::<5>(g), slope: affine(g) }, 13, 300);
+    agree(|g| SlopeOf { apex: ordinary::<5>(g), value: ordinary::<5>(g), slope: affine(g) }, 14, 300);
+}
+
 #[test]
 fn plain_jets() {
     agree(point_jet, 12, 400);

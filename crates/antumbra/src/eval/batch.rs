@@ -2,12 +2,12 @@
 //!
 //! A tape is run once for up to [`MOST`] questions. Every lane has the bits of the one interpreter on single numbers
 //! ([`run`](super::run)), on every machine: so whether, and with which neighbours, a question is asked in a batch changes no answer.
-use super::{Gradient, Number, forms};
+use super::{Gradient, Number, ShaftPoint, ShaftSlopePoint, forms};
 use crate::expr::{Binary, Unary};
 use crate::geom::{Beam, Box3, Fan, axes};
 use crate::tape::{Op, Tape};
 use antumbra_interval::Interval;
-use antumbra_interval::affine::{Affine, Dual};
+use antumbra_interval::affine::{Affine, Dual, Slope};
 use antumbra_interval::lanes::Level;
 use antumbra_interval::lanes::block::{Arithmetic, Block, MOST, Packed, WIDTH};
 
@@ -49,11 +49,40 @@ pub struct FanPiece {
     pub t: Interval,
 }
 
+/// Parameters `t` of the beams from the hits of a tile to a part of a light.
+#[derive(Clone, Copy, Debug)]
+pub struct ShaftPiece {
+    /// Where they start.
+    pub apex: ShaftPoint,
+    /// Their directions.
+    pub direction: ShaftPoint,
+    /// Parameters, bounded and not empty.
+    pub t: Interval,
+}
+
+impl ShaftPiece {
+    /// Its points.
+    #[must_use]
+    #[inline]
+    pub fn point(&self) -> ShaftPoint {
+        let t = Affine::<5>::spanning(0, self.t);
+        axes(|k| t * self.direction[k] + self.apex[k])
+    }
+
+    /// The same points, with the apex split off.
+    #[must_use]
+    #[inline]
+    pub fn slopes(&self) -> ShaftSlopePoint {
+        let t = Affine::<5>::spanning(0, self.t);
+        axes(|k| Slope::coordinate(self.apex[k], t, self.direction[k]))
+    }
+}
+
 /// Fewer questions than these are asked one by one.
 pub(super) const FEWEST: usize = 3;
 
 /// Slots before those of the tape: the parameter, three directions that become coordinates, three starting points.
-const OWN: usize = 7;
+pub(super) const OWN: usize = 7;
 
 /// How full batches were.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

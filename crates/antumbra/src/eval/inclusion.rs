@@ -1,5 +1,5 @@
 //! The one public trait: what the renderer needs to know of a function.
-use super::batch::{self, FanPiece, Occupancy, RayPiece, Unasked};
+use super::batch::{self, FanPiece, Occupancy, RayPiece, ShaftPiece, Unasked};
 use super::{Gradient, PointJet, Regions, run};
 use crate::geom::Box3;
 use crate::tape::Tape;
@@ -46,6 +46,8 @@ impl Workspace {
 pub type BeamPoint = [Affine<3>; 3];
 /// A point in a shaft between a tile of hits and a light, over (t, u, v, i, j).
 pub type ShaftPoint = [Affine<5>; 3];
+/// The same with the slopes from an apex that varies with the hit.
+pub type ShaftSlopePoint = [Slope<Affine<5>, 5>; 3];
 /// A point on a beam piece, as quadratic functions of (s, a, b): along the piece, and across it.
 pub type QuadraticPoint = [Quadratic; 3];
 /// The same with the slopes from an apex.
@@ -139,7 +141,7 @@ pub trait Inclusion: Send + Sync {
     }
 
     /// The slope over a piece of a shaft, whose apex varies with the tile.
-    fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
+    fn shaft_slope(&self, point: ShaftSlopePoint, work: &mut Workspace) -> Affine<5> {
         mean_slope(self, Box3(point.map(|x| x.apex.range().hull(x.value.range()))), point.map(|x| x.slope), work)
     }
 
@@ -188,6 +190,16 @@ pub trait Inclusion: Send + Sync {
     /// [`jet_slope`](Self::jet_slope) over many pieces. Panics unless there are as many answers as questions.
     fn jet_slopes(&self, points: &[JetSlopePoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
         one_by_one(points, out, |point| self.jet_slope(point, work));
+    }
+
+    /// [`shaft`](Self::shaft) over many pieces. Panics unless there are as many answers as questions.
+    fn shafts(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        one_by_one(pieces, out, |piece| self.shaft(piece.point(), work));
+    }
+
+    /// [`shaft_slope`](Self::shaft_slope) over many pieces. Panics unless there are as many answers as questions.
+    fn shaft_slopes(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        one_by_one(pieces, out, |piece| self.shaft_slope(piece.slopes(), work));
     }
 
     /// [`about`](Self::about) at many points. Panics unless there are as many answers as questions.
@@ -340,7 +352,7 @@ impl Inclusion for Tape {
     }
 
     #[inline]
-    fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
+    fn shaft_slope(&self, point: ShaftSlopePoint, work: &mut Workspace) -> Affine<5> {
         run(self, point, &mut work.shaft_slopes).slope
     }
 
@@ -384,6 +396,16 @@ impl Inclusion for Tape {
     fn jet_slopes(&self, points: &[JetSlopePoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
         let unasked = work.batch.forms().answer(self, points, out, |x| x.slope);
         the_rest(unasked, points, out, |point| self.jet_slope(point, work));
+    }
+
+    fn shafts(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        let unasked = work.batch.forms().shafts(self, pieces, out);
+        the_rest(unasked, pieces, out, |piece| self.shaft(piece.point(), work));
+    }
+
+    fn shaft_slopes(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        let unasked = work.batch.forms().shaft_slopes(self, pieces, out);
+        the_rest(unasked, pieces, out, |piece| self.shaft_slope(piece.slopes(), work));
     }
 
     fn abouts(&self, points: &[[PointJet; 3]], out: &mut [PointJet], work: &mut Workspace) {

@@ -25,11 +25,11 @@ mod sieve;
 pub mod wgsl;
 
 pub use antumbra_interval::PointJet;
-pub use batch::{FanPiece, Occupancy, RayPiece};
+pub use batch::{FanPiece, Occupancy, RayPiece, ShaftPiece};
 pub use gradient::Gradient;
 pub use inclusion::{
-    BeamPoint, Inclusion, JetPoint, JetSlopePoint, QuadraticPoint, QuadraticSlopePoint, ShaftPoint, Workspace,
-    centred_range,
+    BeamPoint, Inclusion, JetPoint, JetSlopePoint, QuadraticPoint, QuadraticSlopePoint, ShaftPoint, ShaftSlopePoint,
+    Workspace, centred_range,
 };
 pub use machine::{Number, run};
 pub use point::value_at;

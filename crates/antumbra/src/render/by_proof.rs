@@ -3,9 +3,10 @@ use super::given::Given;
 use super::pixel::Light;
 use super::task::Task;
 use crate::eval::Workspace;
-use crate::geom::Rect;
-use crate::shadow::{self, Asking, Known, Part, Receiver, Shaft, ShaftVerdict, shaft, visibles};
-use crate::trace::{Cost, Surface};
+use crate::shadow::{self, Asking, Known, Placed, Receiver, Shaft, Tile, look, visibles};
+use crate::trace::Cost;
+use smallvec::SmallVec;
+use std::ops::Range;
 use std::rc::Rc;
 
 /// Side of the blocks that both passes start with: a power of two.
@@ -21,14 +22,53 @@ pub(super) fn indices(task: &Task, (column, row, side): Block) -> impl Iterator<
     rows.step_by(width).flat_map(move |left| columns.clone().map(move |column| left + column))
 }
 
-/// A hit that no shaft settled.
-struct Alone<'a> {
-    /// Where its answer goes.
-    place: usize,
-    receiver: &'a Receiver,
-    light: &'a Rect,
-    /// What shafts have found out for it and its neighbours.
+/// Hits of a block of the picture that look at a light together.
+struct Group {
+    light: usize,
+    /// Column and row of the block.
+    corner: [u32; 2],
+    /// Which hits, as a section of the order in which they are looked at.
+    hits: Range<usize>,
+    /// What shafts have found out for all of them.
     sees: Rc<Known>,
+    /// What that has cost: it is booked on the first pixel.
+    owed: Cost,
+}
+
+/// The hits of a tile.
+#[derive(Default)]
+struct Hits {
+    placed: Vec<Placed>,
+    pixels: Vec<usize>,
+    /// For each light, the hits that ask for it; in the end as their blocks follow each other, row by row in the smallest ones.
+    order: Vec<u32>,
+}
+
+impl Hits {
+    fn of<'a>(&'a self, group: &Group) -> impl Iterator<Item = &'a Placed> + Clone + use<'a> {
+        self.order[group.hits.clone()].iter().map(|hit| &self.placed[*hit as usize])
+    }
+
+    /// The groups of the quarters of a group's block that have hits.
+    fn quarter(&mut self, group: Group, half: u32, quarters: &mut Vec<Group>) {
+        let Group { light, corner: [column, row], hits, sees, mut owed } = group;
+        let old: SmallVec<[u32; 64]> = self.order[hits.clone()].into();
+        let mut end = hits.start;
+        for corner in [[column, row], [column + half, row], [column, row + half], [column + half, row + half]] {
+            let begin = end;
+            for hit in &old {
+                let [right, down] = self.placed[*hit as usize].place;
+                if (right >= column + half, down >= row + half) == (corner[0] > column, corner[1] > row) {
+                    self.order[end] = *hit;
+                    end += 1;
+                }
+            }
+            if begin < end {
+                let owed = std::mem::take(&mut owed);
+                quarters.push(Group { light, corner, hits: begin..end, sees: Rc::clone(&sees), owed });
+            }
+        }
+    }
 }
 
 /// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one. Brackets that are
@@ -42,10 +82,7 @@ pub(super) fn shadows<'a>(
 ) -> Vec<Light> {
     let surfaces = task.surfaces();
     let (mut work, mut scratch) = (Workspace::default(), shadow::Scratch::default());
-    let (mut out, mut alone) = (Vec::new(), Vec::new());
-    // What a shaft costs is booked on the first pixel below it.
-    let mut owed = Cost::default();
-    let start = |light| ((column, row, BLOCK), light, Known::nothing(&surfaces));
+    let mut out = Vec::new();
     let known = |light: usize, index: usize| given.and_then(|g| g.light(light, index));
     let narrow = |[lo, hi]: &[f64; 2]| hi - lo <= task.tolerance.width;
     for light in 0..task.lights.len() {
@@ -55,59 +92,76 @@ pub(super) fn shadows<'a>(
             }
         }
     }
-    let mut blocks: Vec<(Block, usize, Known)> = (0..task.lights.len()).rev().map(start).collect();
-    while let Some((block, light, mut sees)) = blocks.pop() {
-        let rect = &task.lights[light].rect;
-        let hits: Vec<(usize, &Receiver)> = indices(task, block)
-            .filter(|index| known(light, *index).is_none_or(|bracket| !narrow(&bracket)))
-            .filter_map(|index| Some((index, receiver_of(index)?)))
-            .collect();
-        if hits.is_empty() {
-            continue;
-        }
-        let (column, row, side) = block;
-        if hits.len() >= 2 {
-            let placed: Vec<(u32, u32, &Receiver)> = hits
-                .iter()
-                .map(|(index, r)| {
-                    let (column, row) = task.place(*index);
-                    (column as u32, row as u32, *r)
-                })
-                .collect();
-            if let Some(fit) = Shaft::fit(&placed)
-                && (side <= 4 || !fit.rough())
-            {
-                look(&surfaces, &fit, rect, &mut sees, &mut scratch, &mut work, &mut owed);
-                if sees.settled() {
-                    let [lo, hi] = sees.bounds();
-                    for (index, _) in hits {
-                        let initial = std::mem::take(&mut owed);
-                        let first_occluded = !(sees.whole() && lo == 1.0);
-                        out.push(Light { index, light, lo, hi, first_occluded, initial, ..Light::default() });
-                    }
-                    continue;
-                }
-            }
-        }
-        if side > 2 && hits.len() >= 2 {
-            let half = side / 2;
-            for (down, right) in [(1, 1), (1, 0), (0, 1), (0, 0)] {
-                blocks.push(((column + right * half, row + down * half, half), light, sees.clone()));
-            }
-            continue;
-        }
-        let sees = Rc::new(sees);
-        for (index, receiver) in hits {
-            let initial = std::mem::take(&mut owed);
-            alone.push(Alone { place: out.len(), receiver, light: rect, sees: Rc::clone(&sees) });
-            out.push(Light { index, light, initial, ..Light::default() });
+    let mut hits = Hits::default();
+    let proved = |index| Some((index, receiver_of(index)?));
+    let proved: Vec<(usize, &Receiver)> = indices(task, (column, row, BLOCK)).filter_map(proved).collect();
+    let placed = |&(index, receiver): &(usize, &Receiver)| {
+        let (column, row) = task.place(index);
+        Placed::new([column as u32, row as u32], *receiver)
+    };
+    hits.placed.extend(proved.iter().map(placed));
+    hits.pixels.extend(proved.iter().map(|(index, _)| index));
+    let mut groups = Vec::new();
+    let (nothing, corner) = (Rc::new(Known::nothing(&surfaces)), [column as u32, row as u32]);
+    for light in 0..task.lights.len() {
+        let asks = |index: usize| known(light, index).is_none_or(|bracket| !narrow(&bracket));
+        let (begin, all) = (hits.order.len(), (0_u32..).zip(&hits.pixels));
+        hits.order.extend(all.filter(|(_, index)| asks(**index)).map(|(hit, _)| hit));
+        let section = begin..hits.order.len();
+        if !section.is_empty() {
+            groups.push(Group { light, corner, hits: section, sees: Rc::clone(&nothing), owed: Cost::default() });
         }
     }
-    let asking: Vec<Asking<'_>> =
-        alone.iter().map(|a| Asking { receiver: a.receiver, light: a.light, known: &a.sees }).collect();
+    // Level by level, so that the shafts of all blocks of a level go in lockstep.
+    let (mut side, mut done) = (BLOCK as u32, Vec::new());
+    while !groups.is_empty() {
+        let (mut tiles, mut places) = (Vec::with_capacity(groups.len()), Vec::with_capacity(groups.len()));
+        for (place, group) in groups.iter().enumerate().filter(|(_, group)| group.hits.len() >= 2) {
+            if let Some(shaft) = Shaft::fit(hits.of(group))
+                && (side <= 4 || !shaft.rough())
+            {
+                tiles.push(Tile { shaft, light: &task.lights[group.light].rect, known: &group.sees });
+                places.push(place);
+            }
+        }
+        let mut found = Vec::with_capacity(tiles.len());
+        look(&surfaces, &tiles, &mut scratch, &mut work, |known, cost| found.push((known, cost)));
+        for (place, (sees, cost)) in places.into_iter().zip(found) {
+            groups[place].sees = Rc::new(sees);
+            groups[place].owed += cost;
+        }
+        let whole = std::mem::take(&mut groups);
+        for group in whole {
+            if side > 2 && group.hits.len() >= 2 && !group.sees.settled() {
+                hits.quarter(group, side / 2, &mut groups);
+            } else {
+                done.push(group);
+            }
+        }
+        side /= 2;
+    }
+    done.sort_unstable_by_key(|group| group.hits.start);
+    let (mut asking, mut places) = (Vec::new(), Vec::new());
+    for Group { light, hits: section, sees, owed, .. } in &done {
+        let (light, mut owed) = (*light, *owed);
+        let settled = sees.settled().then(|| sees.bounds());
+        for hit in &hits.order[section.clone()] {
+            let (hit, initial) = (*hit as usize, std::mem::take(&mut owed));
+            let index = hits.pixels[hit];
+            if let Some([lo, hi]) = settled {
+                let first_occluded = !(sees.whole() && lo == 1.0);
+                out.push(Light { index, light, lo, hi, first_occluded, initial, ..Light::default() });
+            } else {
+                let (receiver, rect) = (&hits.placed[hit].receiver, &task.lights[light].rect);
+                asking.push(Asking { receiver, light: rect, known: sees });
+                places.push(out.len());
+                out.push(Light { index, light, initial, ..Light::default() });
+            }
+        }
+    }
     let found = visibles(&surfaces, &asking, task.tolerance, &mut scratch, &mut work);
-    for (Alone { place, .. }, (bracket, cost)) in alone.iter().zip(found) {
-        let out = &mut out[*place];
+    for (place, (bracket, cost)) in places.into_iter().zip(found) {
+        let out = &mut out[place];
         // Both brackets hold, so they meet.
         let [lo, hi] = known(out.light, out.index).unwrap_or([0.0, 1.0]);
         (out.lo, out.hi) = (lo.max(bracket.lo), hi.min(bracket.hi));
@@ -115,32 +169,4 @@ pub(super) fn shadows<'a>(
         (out.first_occluded, out.sub) = (!bracket.first_free, cost);
     }
     out
-}
-
-/// Tests the open parts of a light for all hits of a tile. A light that is wide against the tile is divided once: then the hits
-/// inherit what is open of each quarter, or that nothing is.
-fn look(
-    surfaces: &[Surface<'_>],
-    fit: &Shaft,
-    light: &Rect,
-    sees: &mut Known,
-    scratch: &mut shadow::Scratch,
-    work: &mut Workspace,
-    cost: &mut Cost,
-) {
-    let mut parts = sees.take_open();
-    while let Some(part) = parts.pop() {
-        match shaft(surfaces, fit, light, &part, scratch, work, cost) {
-            ShaftVerdict::Lit => sees.lit(&part),
-            ShaftVerdict::Dark => sees.shaded(),
-            ShaftVerdict::Open(open) => {
-                let part = Part { pieces: open.to_vec(), ..part };
-                if sees.whole() && fit.narrow_against(light) {
-                    parts.extend(sees.divide(&part));
-                } else {
-                    sees.open(part);
-                }
-            }
-        }
-    }
 }

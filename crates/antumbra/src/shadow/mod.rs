@@ -13,7 +13,7 @@
 //!
 //! Where the light is partly visible, the second-order method takes over from the half planes ([`Penumbra`]).
 //!
-//! [`shaft`] settles whole tiles of hits at once, [`visibles`] hit by hit, in lockstep, so that evaluations come in batches.
+//! [`look`] settles whole tiles of hits at once, [`visibles`] hit by hit, both in lockstep, so that evaluations come in batches.
 #![deny(clippy::float_arithmetic)]
 mod desk;
 mod known;
@@ -23,10 +23,12 @@ mod policy;
 mod rectangle;
 mod second;
 mod shaft;
+mod shafts;
 mod visible;
 
 pub use known::{Known, Part};
 pub use occluders::Receiver;
 pub use second::{Claim, Says};
-pub use shaft::{Shaft, ShaftVerdict, shaft};
+pub use shaft::{Placed, Shaft};
+pub use shafts::{Tile, look};
 pub use visible::{Asking, Bracket, Penumbra, Scratch, Tolerance, visible, visibles};

@@ -24,8 +24,15 @@ pub(super) struct Front {
     pub(super) at: f64,
 }
 
-/// The front signs of all surfaces for one receiver and the whole light. For the surface that was hit it is the viewer's
-/// side, at `t = 0`: a segment that has the other sign anywhere either left the surface to the wrong side or met it again.
+impl Front {
+    /// Of the surface that was hit it is the viewer's side, at `t = 0`: a segment that has the other sign anywhere either left the
+    /// surface to the wrong side or met it again.
+    pub(super) fn of(receiver: &Receiver) -> Self {
+        Self { sign: receiver.side, at: 0.0 }
+    }
+}
+
+/// The front signs of all surfaces for one receiver and the whole light.
 pub(super) fn fronts(
     surfaces: &[Surface<'_>],
     receiver: &Receiver,
@@ -34,26 +41,34 @@ pub(super) fn fronts(
     cost: &mut Cost,
 ) -> Vec<Option<Front>> {
     let mut front_of = |(index, surface): (usize, &Surface<'_>)| {
-        if index == receiver.surface {
-            return Some(Front { sign: receiver.side, at: 0.0 });
-        }
-        let passage = surface.passage(&light.apex, &light.directions());
-        if passage.inner.contains(0.0) {
-            cost.evaluations += 1;
-            return Sign::of(surface.function.range(&receiver.point, work)).map(|sign| Front { sign, at: 0.0 });
-        }
-        // The receiver is outside of the region: look at a short stretch behind its border.
-        if passage.inner.is_empty() || passage.inner.hi() == f64::INFINITY {
-            return None;
-        }
-        (4..10).find_map(|level| {
-            let stretch = crate::geom::section(passage.inner, 0, level);
-            cost.evaluations += 1;
-            let sign = Sign::of(surface.function.beam(light.at(stretch), work).range())?;
-            Some(Front { sign, at: stretch.lo() })
-        })
+        if index == receiver.surface { Some(Front::of(receiver)) } else { front(surface, receiver, light, work, cost) }
     };
     surfaces.iter().enumerate().map(&mut front_of).collect()
+}
+
+/// The front sign of another surface than that of the receiver.
+pub(super) fn front(
+    surface: &Surface<'_>,
+    receiver: &Receiver,
+    light: &Fan,
+    work: &mut Workspace,
+    cost: &mut Cost,
+) -> Option<Front> {
+    let passage = surface.passage(&light.apex, &light.directions());
+    if passage.inner.contains(0.0) {
+        cost.evaluations += 1;
+        return Sign::of(surface.function.range(&receiver.point, work)).map(|sign| Front { sign, at: 0.0 });
+    }
+    // The receiver is outside of the region: look at a short stretch behind its border.
+    if passage.inner.is_empty() || passage.inner.hi() == f64::INFINITY {
+        return None;
+    }
+    (4..10).find_map(|level| {
+        let stretch = crate::geom::section(passage.inner, 0, level);
+        cost.evaluations += 1;
+        let sign = Sign::of(surface.function.beam(light.at(stretch), work).range())?;
+        Some(Front { sign, at: stretch.lo() })
+    })
 }
 
 /// Whether f has no zero in the box: where a form says nothing (it overflows, or reaches the end of a domain) intervals often do.

@@ -85,19 +85,20 @@ pub(super) struct Places {
 }
 
 impl Places {
-    pub(super) fn of(places: impl Iterator<Item = (u32, u32)> + Clone) -> Self {
-        let (mut lo, mut hi) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-        for (i, j) in places.clone() {
-            for (k, x) in [f64::from(i), f64::from(j)].into_iter().enumerate() {
-                (lo[k], hi[k]) = (lo[k].min(x), hi[k].max(x));
+    pub(super) fn of(places: impl Iterator<Item = [u32; 2]> + Clone) -> Self {
+        let (mut lo, mut hi) = ([u32::MAX; 2], [0; 2]);
+        for place in places.clone() {
+            for k in 0..2 {
+                (lo[k], hi[k]) = (lo[k].min(place[k]), hi[k].max(place[k]));
             }
         }
+        let (lo, hi) = (lo.map(f64::from), hi.map(f64::from));
         // Exact: sums of small integers, halved.
         let center = [0.5 * (lo[0] + hi[0]), 0.5 * (lo[1] + hi[1])];
         let half = [(0.5 * (hi[0] - lo[0])).max(0.5), (0.5 * (hi[1] - lo[1])).max(0.5)];
         let mut places_of = Self { center, half, moments: [0.0; 5], count: 0.0 };
-        for (i, j) in places {
-            let [x, y] = places_of.offset(i, j);
+        for place in places {
+            let [x, y] = places_of.offset(place);
             for (m, v) in places_of.moments.iter_mut().zip([x, y, x * x, x * y, y * y]) {
                 *m += v;
             }
@@ -107,7 +108,7 @@ impl Places {
     }
 
     /// How far a place is from the middle, in pixels: exact, a multiple of 1/2.
-    pub(super) fn offset(&self, i: u32, j: u32) -> [f64; 2] {
+    pub(super) fn offset(&self, [i, j]: [u32; 2]) -> [f64; 2] {
         [f64::from(i) - self.center[0], f64::from(j) - self.center[1]]
     }
 
@@ -117,23 +118,39 @@ impl Places {
         [a * self.half[0], b * self.half[1]]
     }
 
-    /// Least-squares slopes of `z` by pixels, of 24 bits each.
-    pub(super) fn slopes(&self, hits: impl Iterator<Item = (u32, u32, f64)> + Clone) -> [f64; 2] {
+    /// Least-squares slopes of three numbers by pixels, of 24 bits each.
+    pub(super) fn slopes(&self, hits: impl Iterator<Item = ([u32; 2], [f64; 3])> + Clone) -> [[f64; 2]; 3] {
         let n = self.count;
         let [sx, sy, sxx, sxy, syy] = self.moments;
-        let mean = hits.clone().map(|(_, _, z)| z).sum::<f64>() / n;
-        let (mut zx, mut zy) = (0.0, 0.0);
-        for (i, j, z) in hits {
-            let [x, y] = self.offset(i, j);
-            zx += (z - mean) * x;
-            zy += (z - mean) * y;
+        let mut sum = [0.0; 3];
+        for (_, z) in hits.clone() {
+            for k in 0..3 {
+                sum[k] += z[k];
+            }
+        }
+        let mean = sum.map(|sum| sum / n);
+        let (mut zx, mut zy) = ([0.0; 3], [0.0; 3]);
+        for (place, z) in hits {
+            let [x, y] = self.offset(place);
+            for k in 0..3 {
+                zx[k] += (z[k] - mean[k]) * x;
+                zy[k] += (z[k] - mean[k]) * y;
+            }
         }
         let (xx, xy, yy) = (sxx - sx * sx / n + 1e-9, sxy - sx * sy / n, syy - sy * sy / n + 1e-9);
         let det = xx * yy - xy * xy;
-        let slopes = [(yy * zx - xy * zy) / det, (xx * zy - xy * zx) / det].map(|slope| slope as f32);
         let exact = self.half.iter().all(|half| *half < f64::from(1 << 27));
-        if exact && slopes.iter().all(|s| s.is_finite()) { slopes.map(f64::from) } else { [0.0; 2] }
+        std::array::from_fn(|k| {
+            let slopes = [yy * zx[k] - xy * zy[k], xx * zy[k] - xy * zx[k]].map(|above| (above / det) as f32);
+            if exact && slopes.iter().all(|s| s.is_finite()) { slopes.map(f64::from) } else { [0.0; 2] }
+        })
     }
+}
+
+/// Slopes, and the same with their signs turned.
+pub(super) fn both_signs([x, y, z]: [[f64; 2]; 3]) -> [[f64; 2]; 6] {
+    let turned = |slope: [f64; 2]| slope.map(|s| -s);
+    [x, y, z, turned(x), turned(y), turned(z)]
 }
 
 /// A plane fits badly if its error is a quarter of the extent.

@@ -70,7 +70,7 @@ pub struct Tolerance {
 /// Scratch memory of one thread. What hits have taught is kept in it too: begin each independent set of hits with a new one.
 #[derive(Debug, Default)]
 pub struct Scratch {
-    pub(super) shaft: super::shaft::Scratch,
+    pub(super) shafts: super::shafts::Scratch,
     /// Of searches that are done, for others.
     idle: Vec<Search>,
     learned: second::Learned,

@@ -1,6 +1,6 @@
 //! Many questions at once get the answers of one after another, bit for bit, at every operator of the language.
 use crate::containment::Operator;
-use antumbra::eval::{FanPiece, Gradient, Inclusion, PointJet, RayPiece, Workspace};
+use antumbra::eval::{FanPiece, Gradient, Inclusion, PointJet, RayPiece, ShaftPiece, Workspace};
 use antumbra::expr::{Axis, Formula};
 use antumbra::geom::{Beam, Box3, Fan, Vec3};
 use antumbra::scene::PRESETS;
@@ -113,6 +113,33 @@ fn forms_agree(
     });
 }
 
+/// What shafts ask.
+fn shafts_agree(
+    count: usize,
+    name: &str,
+    tape: &dyn Inclusion,
+    r: &mut Rng,
+    work: &mut Workspace,
+    fresh: &mut Workspace,
+) {
+    let pieces: Vec<ShaftPiece> = (0..count)
+        .map(|_| {
+            let scale = [1e-3, 0.1, 1.0][r.usize(0..3)];
+            let mut some = || 2.0 * r.f64() - 1.0;
+            let apex = [(); 3].map(|()| Affine::linear(some(), [0.0, 0.0, 0.0, scale * some(), scale * some()], 1e-9));
+            let direction = [(); 3].map(|()| Affine::linear(some(), [(); 5].map(|()| scale * some()), 0.0));
+            ShaftPiece { apex, direction, t: interval(r) }
+        })
+        .collect();
+    let (mut values, mut slopes) = (vec![Affine::ZERO; count], vec![Affine::ZERO; count]);
+    tape.shafts(&pieces, &mut values, work);
+    tape.shaft_slopes(&pieces, &mut slopes, work);
+    for (k, piece) in pieces.iter().enumerate() {
+        assert_eq!(form_bits(&values[k]), form_bits(&tape.shaft(piece.point(), fresh)), "{name} {piece:?}");
+        assert_eq!(form_bits(&slopes[k]), form_bits(&tape.shaft_slope(piece.slopes(), fresh)), "{name} {piece:?}");
+    }
+}
+
 fn agree(name: &str, tape: &dyn Inclusion, r: &mut Rng) {
     Level::all().for_each(|level| agree_on(level, name, tape, r));
 }
@@ -121,6 +148,7 @@ fn agree_on(level: Level, name: &str, tape: &dyn Inclusion, r: &mut Rng) {
     let (mut work, mut fresh) = (Workspace::on(level), Workspace::default());
     for count in [1, 2, 3, 7, 8, 9, 63, 64, 65, 130] {
         forms_agree(count, name, tape, r, &mut work, &mut fresh);
+        shafts_agree(count, name, tape, r, &mut work, &mut fresh);
         let eye = Vec3::new(3.0 * r.f64(), [0.0, r.f64()][r.usize(0..2)], 1.0);
         let rays: Vec<RayPiece> = (0..count)
             .map(|_| {

@@ -1,5 +1,6 @@
-//! What the second-order search asks, as kinds of number that blocks hold: quadratic forms, jets, slopes of both, and plain jets.
-use super::kernels::{JetOf, PointJetOf, QuadraticOf, SlopeLanes};
+//! What shadow searches ask, as kinds of number that blocks hold: quadratic forms, jets, slopes of both, slopes of affine forms from
+//! apexes that are such forms too, and plain jets.
+use super::kernels::{AffineOf, IntervalOf, JetOf, PointJetOf, QuadraticOf, SlopeLanes};
 use super::{Arithmetic, Packed, Vector, arithmetic, sealed};
 use crate::affine::{Affine, Jet, SlopeOf};
 use crate::quadratic::Quadratic;
@@ -12,10 +13,13 @@ impl<const N: usize> sealed::Sealed for Jet<Affine<N>> {
     type Of<V: Vector> = JetOf<V, N>;
 }
 impl sealed::Sealed for SlopeOf<Interval, Quadratic> {
-    type Of<V: Vector> = SlopeLanes<V, QuadraticOf<V>>;
+    type Of<V: Vector> = SlopeLanes<IntervalOf<V>, QuadraticOf<V>>;
 }
 impl<const N: usize> sealed::Sealed for SlopeOf<Interval, Jet<Affine<N>>> {
-    type Of<V: Vector> = SlopeLanes<V, JetOf<V, N>>;
+    type Of<V: Vector> = SlopeLanes<IntervalOf<V>, JetOf<V, N>>;
+}
+impl<const N: usize> sealed::Sealed for SlopeOf<Affine<N>, Affine<N>> {
+    type Of<V: Vector> = SlopeLanes<AffineOf<V, N>, AffineOf<V, N>>;
 }
 impl sealed::Sealed for PointJet {
     type Of<V: Vector> = PointJetOf<V>;
@@ -77,31 +81,34 @@ impl<const N: usize> Packed for Jet<Affine<N>> {
 }
 
 macro_rules! slopes {
-    ([$($generic:tt)*] $form:ty) => {
-        impl<$($generic)*> Packed for SlopeOf<Interval, $form> {
-            const COMPONENTS: usize = 2 + 2 * <$form>::COMPONENTS;
+    ([$($generic:tt)*] $apex:ty, $form:ty) => {
+        impl<$($generic)*> Packed for SlopeOf<$apex, $form> {
+            const COMPONENTS: usize = <$apex>::COMPONENTS + 2 * <$form>::COMPONENTS;
             #[inline(always)]
             fn component(&self, i: usize) -> f64 {
-                if i < 2 {
+                let (value, slope) = (<$apex>::COMPONENTS, <$apex>::COMPONENTS + <$form>::COMPONENTS);
+                if i < value {
                     self.apex.component(i)
-                } else if i < 2 + <$form>::COMPONENTS {
-                    self.value.component(i - 2)
+                } else if i < slope {
+                    self.value.component(i - value)
                 } else {
-                    self.slope.component(i - 2 - <$form>::COMPONENTS)
+                    self.slope.component(i - slope)
                 }
             }
             #[inline(always)]
             fn from_components(of: impl Fn(usize) -> f64) -> Self {
                 let part = |from: usize| <$form>::from_components(|i| of(from + i));
-                let apex = Interval::from_components(&of);
-                Self { apex, value: part(2), slope: part(2 + <$form>::COMPONENTS) }
+                let (value, slope) = (<$apex>::COMPONENTS, <$apex>::COMPONENTS + <$form>::COMPONENTS);
+                let apex = <$apex>::from_components(&of);
+                Self { apex, value: part(value), slope: part(slope) }
             }
             operators!();
         }
     };
 }
-slopes!([] Quadratic);
-slopes!([const N: usize] Jet<Affine<N>>);
+slopes!([] Interval, Quadratic);
+slopes!([const N: usize] Interval, Jet<Affine<N>>);
+slopes!([const N: usize] Affine<N>, Affine<N>);
 
 impl Packed for PointJet {
     const COMPONENTS: usize = 3;

@@ -73,7 +73,8 @@ enum Operation {
 }
 
 /// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`], [`Dual`], [`PointJet`](crate::PointJet),
-/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes: only for these.
+/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes: only for these. (Slopes of both from
+/// intervals, and of affine forms from affine forms.)
 pub trait Packed: Copy + sealed::Sealed {
     /// Numbers in it.
     const COMPONENTS: usize;
@@ -265,6 +266,16 @@ impl<F: Packed> Block<F> {
                 }
             }
         }
+    }
+
+    /// Writes components of all lanes, from `first` on, that stand in a slot of another block. Panics unless that has as many vectors, and
+    /// there are so many components.
+    pub fn put<G: Packed>(&mut self, slot: usize, first: usize, other: &Block<G>, from: usize) {
+        assert_eq!(self.vectors, other.vectors, "blocks of as many lanes");
+        let size = self.size();
+        let to = self.memory[slot * size..][..size].chunks_exact_mut(F::COMPONENTS);
+        let from = other.memory[from * other.size()..].chunks_exact(G::COMPONENTS);
+        to.zip(from).for_each(|(to, from)| to[first..first + G::COMPONENTS].copy_from_slice(from));
     }
 
     /// Reads one lane.

@@ -3,7 +3,7 @@ use super::policy;
 use super::valid::Valid;
 use crate::eval::{
     BeamPoint, FanPiece, Gradient, Inclusion, JetPoint, JetSlopePoint, PointJet, QuadraticPoint, QuadraticSlopePoint,
-    RayPiece, ShaftPoint, Workspace,
+    RayPiece, ShaftPiece, ShaftPoint, ShaftSlopePoint, Workspace,
 };
 use crate::geom::Box3;
 use crate::tape::Tape;
@@ -247,7 +247,7 @@ impl Inclusion for Regions {
         self.tape(&Box3(point.map(|x| x.range()))).shaft(point, work)
     }
 
-    fn shaft_slope(&self, point: [Slope<Affine<5>, 5>; 3], work: &mut Workspace) -> Affine<5> {
+    fn shaft_slope(&self, point: ShaftSlopePoint, work: &mut Workspace) -> Affine<5> {
         self.tape(&Box3(point.map(|x| x.apex.range().hull(x.value.range())))).shaft_slope(point, work)
     }
 
@@ -289,6 +289,16 @@ impl Inclusion for Regions {
     fn jet_slopes(&self, points: &[JetSlopePoint], out: &mut [Jet<Affine<3>>], work: &mut Workspace) {
         let region = |point: &JetSlopePoint| Box3(point.map(|x| x.apex.hull(x.value.range())));
         self.ask_all(points, out, region, |tape, points, out| tape.jet_slopes(points, out, work));
+    }
+
+    fn shafts(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        let region = |piece: &ShaftPiece| Box3(piece.point().map(|x| x.range()));
+        self.ask_all(pieces, out, region, |tape, pieces, out| tape.shafts(pieces, out, work));
+    }
+
+    fn shaft_slopes(&self, pieces: &[ShaftPiece], out: &mut [Affine<5>], work: &mut Workspace) {
+        let region = |piece: &ShaftPiece| Box3(piece.slopes().map(|x| x.apex.range().hull(x.value.range())));
+        self.ask_all(pieces, out, region, |tape, pieces, out| tape.shaft_slopes(pieces, out, work));
     }
 
     fn abouts(&self, points: &[[PointJet; 3]], out: &mut [PointJet], work: &mut Workspace) {

@@ -29,6 +29,13 @@ pub trait Enclosures<V: Vector>: Copy {
     fn plus_centre_radius(self, m: V, r: V) -> Self;
     /// `a k` for `k` known by centre and radius.
     fn times_centre_radius(self, m: V, r: V) -> Self;
+    /// Whether there are powers in vectors; else they are left to the scalar operators.
+    const POWERS: bool = false;
+    /// `a^n`, 3 <= n <= 8, and the lanes in which it is the scalar operator's.
+    #[inline(always)]
+    fn powered(self, _: u32) -> (Self, V::Mask) {
+        (self, never::<V>())
+    }
 }
 
 /// No lane.
@@ -84,6 +91,11 @@ impl<V: Vector, const N: usize> Enclosures<V> for AffineOf<V, N> {
             i += 1;
         }
         Self::sealed(self.c.mul(m), a, e, size)
+    }
+    const POWERS: bool = true;
+    #[inline(always)]
+    fn powered(self, n: u32) -> (Self, V::Mask) {
+        self.power(n)
     }
 }
 
