@@ -1,5 +1,6 @@
 //! The least value along a beam: the symbol `s` eliminated from a quadratic form.
 use super::{Quadratic, TINY, U, norm, parabola_low};
+use crate::Interval;
 use crate::affine::LARGE;
 use crate::round::{add_up, greater, lesser};
 
@@ -23,10 +24,38 @@ impl Paraboloid {
         low - (16.0 * U * size + TINY)
     }
 
+    /// Lower bound over a part `a x b` of `[-1, 1]^2`.
+    ///
+    /// With `a = m + r x`, `b = n + s y`, where `[m - r, m + r]` holds the part for all roundings of m and r, each below 2u: a polynomial in
+    /// `(x, y)` over the whole square. Its coefficients are sums of terms with at most 5 factors, whose magnitudes add up to at most
+    /// `(1 + 8u)^2` times those of this one: less than 32 roundings, all told.
+    #[must_use]
+    pub fn lower_bound_over(&self, [a, b]: [Interval; 2]) -> f64 {
+        let about = |t: Interval| (0.5 * (t.lo() + t.hi()), 0.5 * (t.hi() - t.lo()) + 4.0 * U);
+        let ((m, r), (n, s)) = (about(a), about(b));
+        let ([la, lb], [aa, bb, ab]) = (self.l, self.q);
+        let moved = Self {
+            c: self.c + m * (la + aa * m) + n * (lb + bb * n) + ab * m * n,
+            l: [r * (la + 2.0 * aa * m + ab * n), s * (lb + 2.0 * bb * n + ab * m)],
+            q: [aa * r * r, bb * s * s, ab * r * s],
+        };
+        moved.lower_bound() - (64.0 * U * self.size() + TINY)
+    }
+
+    /// Upper bound over a part `a x b` of `[-1, 1]^2`.
+    #[must_use]
+    pub fn upper_bound_over(&self, part: [Interval; 2]) -> f64 {
+        -self.negated().lower_bound_over(part)
+    }
+
     /// Upper bound over `[-1, 1]^2`.
     #[must_use]
     pub fn upper_bound(&self) -> f64 {
-        -Self { c: -self.c, l: self.l.map(|v| -v), q: self.q.map(|v| -v) }.lower_bound()
+        -self.negated().lower_bound()
+    }
+
+    fn negated(&self) -> Self {
+        Self { c: -self.c, l: self.l.map(|v| -v), q: self.q.map(|v| -v) }
     }
 
     /// With `a` and `b` exchanged.

@@ -21,7 +21,8 @@ impl Sheet {
     /// Encloses the difference `self - o` over the part `u x v` of the light: exactly 0 where both are the same.
     ///
     /// Equal slopes are left out: their difference is exactly 0, and most sheets that are compared are parallel.
-    fn minus(&self, o: &Self, part: [Interval; 2]) -> Interval {
+    #[must_use]
+    pub fn minus(&self, o: &Self, part: [Interval; 2]) -> Interval {
         let point = Interval::point;
         let mut difference = point(self.k) - point(o.k);
         for (i, along) in part.into_iter().enumerate() {
@@ -62,12 +63,6 @@ impl Sheet {
         self.minus(o, part).hi() <= 0.0
     }
 
-    /// Upper bound of how far another sheet lies above this one over the part, at least 0.
-    #[must_use]
-    pub fn rise_to(&self, o: &Self, part: [Interval; 2]) -> f64 {
-        o.minus(self, part).hi().max(0.0)
-    }
-
     /// The sheet as a form, `u` and `v` given as forms.
     #[must_use]
     pub fn form(&self, [u, v]: &[Affine<3>; 2]) -> Affine<3> {
@@ -95,9 +90,9 @@ mod tests {
             let gap = (above.k - below.k) - 0.5 * ((slopes[0] - 0.1).abs() * 2.0 + (slopes[1] + 0.2).abs() * 0.2);
             assert!(gap.abs() < 1e-14, "{gap}: no more than needed");
         }
-        let far = Sheet::level(0.0).rise_to(&sheet, part);
+        let far = sheet.minus(&Sheet::level(0.0), part).hi();
         assert!((far - (0.5 + 0.07 - 0.02)).abs() < 1e-14, "{far}: at u = 0.7, v = 0.1");
-        assert_eq!((sheet.rise_to(&sheet, part), sheet.rise_to(&Sheet::level(0.0), part)), (0.0, 0.0));
+        assert_eq!(sheet.minus(&sheet, part), Interval::ZERO);
         assert_eq!(sheet.below(sheet.slopes, part), sheet, "the same sheet is its own cover");
         assert!(
             !Sheet::level(0.5).certainly_at_most(&sheet, part) && !sheet.certainly_at_most(&Sheet::level(0.5), part)

@@ -15,6 +15,7 @@
 //!
 //! Any line is sound; a tangent at the strip's middle makes `[R-, R+]` as thin as the curvature allows.
 use super::halfplanes::{self, Bound};
+use antumbra_interval::Interval;
 use antumbra_interval::quadratic::Paraboloid;
 use antumbra_interval::round::{add_down, add_up, div_down, div_up, mul_down, mul_up, sub_down, sub_up};
 
@@ -29,6 +30,20 @@ pub struct Curve {
     pub error: f64,
     /// Whether a negative `upper` hides.
     pub hides: bool,
+}
+
+impl Curve {
+    /// Whether the slab is proved free all over a part of the square.
+    #[must_use]
+    pub fn free_over(&self, part: [Interval; 2]) -> bool {
+        self.lower.lower_bound_over(part) > self.error
+    }
+
+    /// Whether it is proved to hide all of a part.
+    #[must_use]
+    pub fn hides_over(&self, part: [Interval; 2]) -> bool {
+        self.hides && self.upper.upper_bound_over(part) < -self.error
+    }
 }
 
 /// Where the undecided part of a square lies, if it is a band along a curve.
@@ -119,7 +134,8 @@ fn across(curves: &[Curve]) -> usize {
     usize::from(if both { steep[1] > steep[0] } else { least[1] > least[0] })
 }
 
-/// As many strips as make the loss by straight lines small against the error: any power of two is sound.
+/// As many strips as make the loss by straight lines at most that by the error, or `enough`: any power of two is sound. In a strip of
+/// half width d the curve leaves its tangent by at most `curvature d^2/steepness`, and the square has twice that width.
 fn strips(curves: &[Curve], enough: f64) -> usize {
     let wanted = curves.iter().fold(2.0, |most, c| {
         let p = c.upper;
@@ -128,7 +144,7 @@ fn strips(curves: &[Curve], enough: f64) -> usize {
         let tilt = p.l[1] / steep;
         let curvature = p.q[1].abs() + (p.q[2] * tilt).abs() + p.q[0].abs() * tilt * tilt;
         let loss = f64::max(2.0 * c.error / least, enough);
-        f64::max(most, (curvature / (0.5 * least * loss)).sqrt())
+        f64::max(most, (0.5 * curvature / (least * loss)).sqrt())
     });
     let mut strips = 2;
     while f64::from(strips) < f64::min(wanted, STRIPS) {

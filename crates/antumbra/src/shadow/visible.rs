@@ -72,7 +72,7 @@ pub struct Tolerance {
 pub struct Scratch {
     pub(super) shafts: super::shafts::Scratch,
     /// Of searches that are done, for others.
-    idle: Vec<Search>,
+    idle: Vec<Box<Search>>,
     learned: second::Learned,
     claims: Option<Vec<second::Claim>>,
 }
@@ -183,11 +183,11 @@ struct Found {
     cost: Cost,
     /// Whether the second-order method settled it; `None` if that was not tried.
     settled: Option<bool>,
-    own: Search,
+    own: Box<Search>,
 }
 
 /// One hit; `worth`: whether the second-order method is.
-async fn search(desk: &Desk<'_>, hit: &Asking<'_>, worth: bool, tolerance: Tolerance, mut own: Search) -> Found {
+async fn search(desk: &Desk<'_>, hit: &Asking<'_>, worth: bool, tolerance: Tolerance, mut own: Box<Search>) -> Found {
     let (mut cost, mut settled) = (Cost::default(), None);
     let bracket = bracket(desk, hit, worth, tolerance, &mut own, &mut settled, &mut cost).await;
     Found { bracket, cost, settled, own }
@@ -210,11 +210,11 @@ async fn bracket(
     let query = Query { surfaces, receiver, fronts: &fronts, light };
     let Search { rectangle, second, pieces: arena, ledger } = own;
     // The second-order method may be tried once.
-    let reach = |known: &Known| second::reach(&query, &whole, known, &mut desk.work());
+    let ways = |known: &Known| second::ways(&query, &whole, known, &mut desk.work());
     // A bracket of it.
     let mut other = [0.0, 1.0];
-    if worth && let Some(reach) = reach(known) {
-        let found = second::fraction(&query, &reach, known, tolerance, second, desk, cost).await;
+    if worth && let Some(ways) = ways(known) {
+        let found = second::fraction(&query, &ways, known, tolerance, second, desk, cost).await;
         *settled = Some(found.narrow(tolerance));
         if found.settles(tolerance) {
             return found.bracket(known, tolerance);
@@ -248,8 +248,8 @@ async fn bracket(
         if rectangles == 1 && worth && settled.is_none() {
             // What was too long a beam to be proved continuous may have become short.
             let shorter = known.with_pieces(&arena[inherited..]);
-            if let Some(reach) = reach(&shorter) {
-                let found = second::fraction(&query, &reach, &shorter, tolerance, second, desk, cost).await;
+            if let Some(ways) = ways(&shorter) {
+                let found = second::fraction(&query, &ways, &shorter, tolerance, second, desk, cost).await;
                 *settled = Some(found.narrow(tolerance));
                 other = [found.lo, found.hi];
                 rectangles += found.cells;

@@ -165,7 +165,7 @@ async fn narrow(
     if !plan.sheet(1.0).is_finite() {
         return plain(cell, &Slab { state: State::Outer, ..*slab }, open, s, desk, cost).await;
     }
-    let least_at = plan.sheet(0.0);
+    let least_at = plan.least_at;
     let (core, convex) = match slab.state {
         // A range that is proved convex is never enlarged: its own sheets stay.
         State::Convex(known) => (*slab, Some(Convexity { least_at, ..known })),
@@ -254,16 +254,22 @@ async fn core(
 /// Where values fall until the rays leave the region, the last sheet that is inside of it: beyond, nothing hides.
 pub(super) fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [f64; 2]) {
     let part = cell.part;
-    let expected = plan.sheet(0.0);
+    let expected = plan.least_at;
     let in_core = |sheet: &&Sheet| core.lo.certainly_at_most(sheet, part) && sheet.certainly_at_most(&core.hi, part);
     let sheet = match cell.shape.nearest(&core.lo, &expected, &core.hi, plan.margin()) {
         Nearest::Middle if in_core(&&expected) => expected,
+        Nearest::Middle => {
+            // It crosses an end of the core somewhere: one that is parallel to that end does not.
+            let end = if cell.shape.nearer_to_lower(&core.lo, &expected, &core.hi) { core.lo } else { core.hi };
+            Some(cell.shape.through(&end, &expected)).filter(|sheet| in_core(&sheet)).unwrap_or(end)
+        }
         Nearest::Lower => core.lo,
         _ => *cell.last_inside(core.surface).filter(in_core).unwrap_or(&core.hi),
     };
     // The core is all that lies between its sheets, whichever is the lower one.
-    let below = core.lo.rise_to(&sheet, part).max(core.hi.rise_to(&sheet, part));
-    let above = sheet.rise_to(&core.lo, part).max(sheet.rise_to(&core.hi, part));
+    let (under, over) = (sheet.minus(&core.lo, part), core.hi.minus(&sheet, part));
+    let below = under.hi().max(-over.lo()).max(0.0);
+    let above = over.hi().max(-under.lo()).max(0.0);
     (Slab { lo: sheet, hi: sheet, state: State::Outer, ..*core }, [below, above])
 }
 

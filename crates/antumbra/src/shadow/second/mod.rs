@@ -15,6 +15,7 @@
 mod cell;
 mod policy;
 mod slab;
+mod undecided;
 
 use super::desk::Desk;
 use super::known::{Known, Part};
@@ -23,20 +24,23 @@ use super::rectangle::Query;
 use super::visible::{Bracket, Penumbra, Tolerance};
 use crate::eval::Workspace;
 use crate::geom::strips::{Areas, Band, Curve};
-use crate::geom::{Fan, Sheet};
+use crate::geom::{Fan, Passage, Sheet};
 use crate::trace::{Cost, Piece, Surface, certainly_continuous};
 use crate::verdict::Reason;
 use antumbra_interval::Interval;
 use antumbra_interval::round::sub_up;
 use cell::{Answer, look};
 pub(super) use policy::Learned;
+pub(super) use slab::Way;
 use slab::{Cell, Slab, State};
+use undecided::Seen;
 
 /// Scratch memory of one thread.
 #[derive(Debug, Default)]
 pub(super) struct Scratch {
     cell: cell::Scratch,
     slabs: Vec<Slab>,
+    curves: Vec<Curve>,
     ledger: Ledger<Rest>,
     parts: Vec<Job>,
     /// Everything that is claimed, if somebody wants to know.
@@ -71,6 +75,8 @@ type Job = ([Interval; 2], (usize, usize));
 #[derive(Clone, Debug)]
 struct Rest {
     slabs: (usize, usize),
+    /// What they say about the cell.
+    curves: (usize, usize),
     band: Option<Band>,
 }
 
@@ -99,33 +105,36 @@ impl Fraction {
     }
 }
 
-/// For each surface, the parameter up to which it is proved continuous on all rays, so that an opposite sign is a proof.
+/// What is known of each surface on all rays: up to where it is proved continuous, so that an opposite sign is a proof.
 /// `None` if the method does not apply to these pieces: then some surface has no front sign, or may break.
-pub(super) fn reach(query: &Query<'_>, whole: &Fan, known: &Known, work: &mut Workspace) -> Option<Vec<f64>> {
-    let mut reach_of = |(surface, at): (usize, &Surface<'_>)| {
+pub(super) fn ways(query: &Query<'_>, whole: &Fan, known: &Known, work: &mut Workspace) -> Option<Vec<Way>> {
+    const NOWHERE: Way = Way { reach: 0.0, passage: Passage { outer: Interval::EMPTY, inner: Interval::EMPTY } };
+    let directions = whole.directions();
+    let mut way = |(surface, at): (usize, &Surface<'_>)| {
         let mut of = known.open.iter().flat_map(|part| &part.pieces).filter(|p| p.surface == surface).map(|p| p.t);
-        let Some(first) = of.next() else { return Some(0.0) };
+        let Some(first) = of.next() else { return Some(NOWHERE) };
         query.fronts[surface]?;
+        let passage = at.passage(&whole.apex, &directions);
         if at.function.continuous_everywhere() {
-            return Some(1.0);
+            return Some(Way { reach: 1.0, passage });
         }
         let t = of.fold(first, Interval::hull).hull(Interval::ZERO);
-        certainly_continuous(at.function, &whole.box_at(t), work).then_some(t.hi())
+        certainly_continuous(at.function, &whole.box_at(t), work).then_some(Way { reach: t.hi(), passage })
     };
-    query.surfaces.iter().enumerate().map(&mut reach_of).collect()
+    query.surfaces.iter().enumerate().map(&mut way).collect()
 }
 
 /// The visible fraction, given what is known of the light.
 pub(super) async fn fraction(
     query: &Query<'_>,
-    reach: &[f64],
+    ways: &[Way],
     known: &Known,
     tolerance: Tolerance,
     s: &mut Scratch,
     desk: &Desk<'_>,
     cost: &mut Cost,
 ) -> Fraction {
-    let Scratch { cell: scratch, slabs, ledger, parts, claims, .. } = s;
+    let Scratch { cell: scratch, slabs, curves, ledger, parts, claims } = s;
     let most = match tolerance.penumbra {
         Penumbra::Auto => cost.evaluations + policy::fair(tolerance.width),
         _ => u64::MAX,
@@ -133,6 +142,7 @@ pub(super) async fn fraction(
     ledger.clear();
     known.book(ledger);
     slabs.clear();
+    curves.clear();
     parts.clear();
     for Part { part, pieces } in &known.open {
         let begin = slabs.len();
@@ -144,7 +154,7 @@ pub(super) async fn fraction(
         while let Some((part, (from, to))) = parts.pop() {
             cells += 1;
             let begin = slabs.len();
-            let cell = Cell::new(query, reach, part);
+            let cell = Cell::new(query, ways, part);
             let enough = policy::enough(tolerance.width, area(part)[1]);
             let answer = look(&cell, from..to, enough, slabs, scratch, desk, cost).await;
             if let Some(claims) = claims {
@@ -159,7 +169,10 @@ pub(super) async fn fraction(
                 Answer::Dark => ledger.shaded(),
                 Answer::Lit => ledger.lit(area(part)),
                 Answer::Open(Areas { lit, open, band }) => {
-                    ledger.open(part, [lit, open], Rest { slabs: (begin, slabs.len()), band });
+                    let first = curves.len();
+                    curves.extend_from_slice(scratch.curves());
+                    let rest = Rest { slabs: (begin, slabs.len()), curves: (first, curves.len()), band };
+                    ledger.open(part, [lit, open], rest);
                 }
             }
         }
@@ -178,8 +191,12 @@ pub(super) async fn fraction(
         if let Some(band) = band {
             crop(&node, &band, ledger, parts);
         } else {
-            let shape = policy::Shape::of(query.light, query.receiver.point.mid(), node.part);
-            divide(&node, shape.halved(), parts);
+            let (from, to) = node.rest.curves;
+            let seen = Seen { part: node.part, curves: &curves[from..to] };
+            let Some(part) = seen.undecided(node.part, ledger) else { continue };
+            let shape = policy::Shape::of(query.light, query.receiver.point.mid(), part);
+            let undecided = divide(part, shape.halved()).filter_map(|part| seen.undecided(part, ledger));
+            parts.extend(undecided.map(|part| (part, node.rest.slabs)));
         }
     }
     let [lo, hi] = ledger.bounds();
@@ -213,12 +230,10 @@ fn halves(t: Interval) -> [Interval; 2] {
 }
 
 /// Two or four equal parts.
-fn divide(node: &Node<Rest>, halved: [bool; 2], parts: &mut Vec<Job>) {
-    let [u, v] = node.part;
-    let cuts = |t: Interval, cut: bool| if cut { halves(t).to_vec() } else { vec![t] };
-    for v in cuts(v, halved[1]) {
-        parts.extend(cuts(u, halved[0]).into_iter().map(|u| ([u, v], node.rest.slabs)));
-    }
+fn divide([u, v]: [Interval; 2], halved: [bool; 2]) -> impl Iterator<Item = [Interval; 2]> {
+    let cuts = |t: Interval, cut: bool| if cut { halves(t).map(Some) } else { [Some(t), None] };
+    let (across, along) = (cuts(u, halved[0]), cuts(v, halved[1]));
+    along.into_iter().flatten().flat_map(move |v| across.into_iter().flatten().map(move |u| [u, v]))
 }
 
 /// Two halves along the band. Across it, only the undecided part goes on; what lies beyond on one side is lit and booked,

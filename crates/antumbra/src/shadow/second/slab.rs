@@ -8,6 +8,8 @@ use crate::trace::{Cost, Sign};
 use antumbra_interval::Interval;
 use antumbra_interval::affine::{Affine, Jet, SlopeOf};
 use antumbra_interval::quadratic::Quadratic;
+use smallvec::SmallVec;
+use std::cell::OnceCell;
 
 /// Which function of t is looked at: f itself, or the slope g with `f = t g`, for the surface that was hit.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -46,6 +48,22 @@ pub(super) struct Slab {
     pub(super) state: State,
 }
 
+/// What is known of a surface on all rays to the light.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::shadow) struct Way {
+    /// The parameter up to which it is proved continuous.
+    pub(super) reach: f64,
+    /// Where the rays pass its region.
+    pub(super) passage: Passage,
+}
+
+/// How the rays of a cell pass the region of a surface.
+struct Sight {
+    passage: Passage,
+    /// If the clip cuts the surface, and all rays begin inside of it: where they leave it.
+    leaving: Option<Leaving>,
+}
+
 /// A rectangle of the light, seen from one hit.
 pub(super) struct Cell<'a> {
     pub(super) query: &'a Query<'a>,
@@ -54,36 +72,33 @@ pub(super) struct Cell<'a> {
     /// The parameters u and v of the light, as forms.
     symbols: [Affine<3>; 2],
     fan: Fan,
-    directions: Box3,
-    passages: Vec<Passage>,
-    /// For surfaces that the clip cuts, if all rays begin inside of it: where they leave it.
-    leaving: Vec<Option<Leaving>>,
-    reach: &'a [f64],
+    /// For each surface.
+    ways: &'a [Way],
+    /// For each surface of which that does not say enough.
+    sights: SmallVec<[OnceCell<Box<Sight>>; 2]>,
 }
 
 impl<'a> Cell<'a> {
-    /// `reach`: for each surface, the parameter up to which it is proved continuous on all rays.
-    pub(super) fn new(query: &'a Query<'a>, reach: &'a [f64], part: [Interval; 2]) -> Self {
-        let fan = Fan::towards(query.receiver.point, query.light, part[0], part[1]);
-        let directions = fan.directions();
-        let symbols = [Affine::spanning(1, part[0]), Affine::spanning(2, part[1])];
-        let passages: Vec<Passage> = query.surfaces.iter().map(|at| at.passage(&fan.apex, &directions)).collect();
-        let leaving = query.surfaces.iter().zip(&passages).map(|(at, passage)| {
-            let cuts = at.region == at.clip && passage.inner.contains(0.0);
-            if cuts { at.clip.leaving(&fan, &symbols) } else { None }
-        });
-        let leaving = leaving.collect();
+    pub(super) fn new(query: &'a Query<'a>, ways: &'a [Way], part: [Interval; 2]) -> Self {
         Self {
             query,
             part,
             shape: Shape::of(query.light, query.receiver.point.mid(), part),
-            symbols,
-            fan,
-            directions,
-            passages,
-            leaving,
-            reach,
+            symbols: [Affine::spanning(1, part[0]), Affine::spanning(2, part[1])],
+            fan: Fan::towards(query.receiver.point, query.light, part[0], part[1]),
+            ways,
+            sights: ways.iter().map(|_| OnceCell::new()).collect(),
         }
+    }
+
+    fn sight(&self, surface: usize) -> &Sight {
+        self.sights[surface].get_or_init(|| {
+            let at = &self.query.surfaces[surface];
+            let passage = at.passage(&self.fan.apex, &self.fan.directions());
+            let cuts = at.region == at.clip && passage.inner.contains(0.0);
+            let leaving = if cuts { at.clip.leaving(&self.fan, &self.symbols) } else { None };
+            Box::new(Sight { passage, leaving })
+        })
     }
 
     pub(super) fn extent(&self, slab: &Slab) -> Extent {
@@ -96,16 +111,25 @@ impl<'a> Cell<'a> {
     /// that; and below the sheet beyond which no ray is inside: if the slab's sheets are in order, what it has inside is
     /// between its lower sheet and that one. That pays only where the clip cuts the surface: elsewhere it would but tilt the
     /// sheets. A convex slab must not grow: it is cut only by a sheet that is proved to lie in it on all rays.
+    ///
+    /// What is inside on all rays to the light is so on those to a part of it: then nothing is to be cut off.
     pub(super) fn clipped(&self, slab: &Slab) -> Option<Slab> {
-        let outer = self.passages[slab.surface].outer;
+        let Way { passage, .. } = &self.ways[slab.surface];
         let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
-        if !t.possibly_intersects(outer) {
+        let at = &self.query.surfaces[slab.surface];
+        if at.region != at.clip {
+            return t.possibly_intersects(passage.outer).then_some(*slab);
+        }
+        if t.is_subset_of(passage.inner) {
+            return Some(*slab);
+        }
+        let Sight { passage: Passage { outer, .. }, leaving } = self.sight(slab.surface);
+        if !t.possibly_intersects(*outer) {
             return None;
         }
         let (lo, hi) = (Sheet::level(outer.lo()), Sheet::level(outer.hi()));
         let mut inside = *slab;
-        let at = &self.query.surfaces[slab.surface];
-        if at.region == at.clip && !matches!(slab.state, State::Convex(_)) {
+        if !matches!(slab.state, State::Convex(_)) {
             if slab.lo.certainly_at_most(&lo, self.part) {
                 inside.lo = lo;
             }
@@ -113,7 +137,7 @@ impl<'a> Cell<'a> {
                 inside.hi = hi;
             }
         }
-        if let Some(Leaving { outer, .. }) = &self.leaving[slab.surface] {
+        if let Some(Leaving { outer, .. }) = leaving {
             let proved = |a: &Sheet, b: &Sheet| a.certainly_at_most(b, self.part);
             let pays = match slab.state {
                 State::Convex(_) => proved(&slab.lo, outer) && proved(outer, &slab.hi),
@@ -143,21 +167,22 @@ impl<'a> Cell<'a> {
     /// between.)
     pub(super) fn inside(&self, slab: &Slab) -> bool {
         let t = slab.lo.range(self.part).hull(slab.hi.range(self.part));
-        let passage = &self.passages[slab.surface];
+        let way = &self.ways[slab.surface];
         let before =
             |sheet: &Sheet| slab.lo.certainly_at_most(sheet, self.part) && slab.hi.certainly_at_most(sheet, self.part);
-        let in_region = t.is_subset_of(passage.inner) || self.last_inside(slab.surface).is_some_and(before);
+        let in_region = || {
+            t.is_subset_of(way.passage.inner)
+                || t.is_subset_of(self.sight(slab.surface).passage.inner)
+                || self.last_inside(slab.surface).is_some_and(before)
+        };
         self.query.fronts[slab.surface].is_some_and(|front| {
-            front.at <= t.lo()
-                && t.hi() <= self.reach[slab.surface]
-                && t.is_subset_of(Interval::new(0.0, 1.0))
-                && in_region
+            front.at <= t.lo() && t.hi() <= way.reach && t.is_subset_of(Interval::new(0.0, 1.0)) && in_region()
         })
     }
 
     /// A sheet up to which all rays are inside the region of a surface that the clip cuts.
     pub(super) fn last_inside(&self, surface: usize) -> Option<&Sheet> {
-        self.leaving[surface].as_ref().and_then(|leaving| leaving.inner.as_ref())
+        self.sight(surface).leaving.as_ref().and_then(|leaving| leaving.inner.as_ref())
     }
 
     /// The points of the slab, `s` running from one sheet to the other.
@@ -249,7 +274,8 @@ impl<'a> Cell<'a> {
             return false;
         }
         cost.evaluations += 1;
-        let region = Box3(std::array::from_fn(|k| self.fan.apex[k] + t * self.directions[k]));
+        let directions = self.fan.directions();
+        let region = Box3(std::array::from_fn(|k| self.fan.apex[k] + t * directions[k]));
         let range = self.query.surfaces[slab.surface].function.range(&region, work);
         let range = if self.negative(slab.surface) { -range } else { range };
         range.certainly_positive()

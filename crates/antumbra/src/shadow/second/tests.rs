@@ -1,9 +1,9 @@
 //! The steps one by one, on functions of which everything is known.
 use super::cell::{self, Answer, fall, level, look};
 use super::policy::{Learned, Plan};
-use super::slab::{Cell, Convexity, Kind, Slab, State};
+use super::slab::{Cell, Convexity, Kind, Slab, State, Way};
 use crate::eval::{Gradient, Inclusion, JetPoint, QuadraticPoint, Workspace};
-use crate::geom::{Box3, Clip, Rect, Sheet, Vec3};
+use crate::geom::{Box3, Clip, Passage, Rect, Sheet, Vec3};
 use crate::shadow::desk::Desk;
 use crate::shadow::ledger::Ledger;
 use crate::shadow::occluders::Front;
@@ -70,6 +70,10 @@ impl Inclusion for Floor {
         true
     }
 }
+
+/// No clip, no break.
+const CLEAR: [Way; 2] =
+    [Way { reach: 1.0, passage: Passage { outer: Interval::NON_NEGATIVE, inner: Interval::NON_NEGATIVE } }; 2];
 
 fn surfaces() -> [Surface<'static>; 2] {
     let everywhere = |function| Surface { function, clip: Clip::Everywhere, region: Clip::Everywhere };
@@ -164,7 +168,7 @@ fn a_convex_range_must_not_grow() {
             let (a, b) = (random(&mut state), random(&mut state));
             Interval::new(a.min(b), a.max(b) + 1e-3)
         });
-        let cell = Cell::new(&query, &[1.0; 2], part);
+        let cell = Cell::new(&query, &CLEAR, part);
         let mut open = vec![convex];
         if let Answer::Open(_) = desk.alone(look(&cell, 0..1, 1e-4, &mut open, &mut scratch, &desk, &mut cost)) {
             for slab in &open[1..] {
@@ -188,7 +192,7 @@ fn bends_and_slopes_are_enclosed() {
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let (mut work, mut cost, mut state) = (Workspace::default(), Cost::default(), 3);
     let desk = Desk::new(&surfaces, &mut work, Learned::default());
-    let cell = Cell::new(&query, &[1.0; 2], [Interval::new(-1.0, 0.0), Interval::new(0.5, 1.0)]);
+    let cell = Cell::new(&query, &CLEAR, [Interval::new(-1.0, 0.0), Interval::new(0.5, 1.0)]);
     let (lo, hi) = (Sheet { k: 0.27, slopes: [0.01, 0.0] }, Sheet { k: 0.32, slopes: [0.0, 0.01] });
     let slab = Slab { surface: 1, lo, hi, state: State::Outer };
     let bend = desk.alone(cell.bend(&slab, Kind::Plain, &desk, &mut cost)).unwrap();
@@ -251,7 +255,7 @@ fn sheets_in_the_wrong_order_prove_nothing() {
     let fronts = [Some(Front { sign: Sign::Positive, at: 0.0 }); 2];
     let query = Query { surfaces: &surfaces, receiver: &receiver, fronts: &fronts, light: &light };
     let unit = Interval::new(-1.0, 1.0);
-    let cell = Cell::new(&query, &[1.0; 2], [unit, unit]);
+    let cell = Cell::new(&query, &CLEAR, [unit, unit]);
     let core = |lo, hi| Slab { surface: 1, lo, hi, state: State::Outer };
     let plan = |k: f64, slope: f64| Plan::around(Sheet { k, slopes: [slope, 0.0] }, 0.01);
     let straight = core(Sheet::level(0.2), Sheet::level(0.4));
@@ -280,7 +284,7 @@ fn crossing_sheets_enclose_what_lies_between() {
     let (mut work, mut cost) = (Workspace::default(), Cost::default());
     let desk = Desk::new(&surfaces, &mut work, Learned::default());
     let part = [Interval::new(-0.5, 0.25), Interval::new(0.0, 1.0)];
-    let cell = Cell::new(&query, &[1.0; 2], part);
+    let cell = Cell::new(&query, &CLEAR, part);
     let mut state = 9;
     for (lo, hi) in [
         (Sheet { k: 0.2, slopes: [0.1, -0.1] }, Sheet { k: 0.4, slopes: [0.1, -0.1] }),

@@ -1,0 +1,57 @@
+//! What the curves of a cell say about its parts, without another evaluation.
+use super::super::ledger::{Ledger, area};
+use super::{Rest, policy};
+use crate::geom::strips::Curve;
+use antumbra_interval::Interval;
+
+/// A cell that was looked at, and what its slabs say of it ([`Says::Curves`](super::Says::Curves)).
+pub(super) struct Seen<'a> {
+    pub(super) part: [Interval; 2],
+    pub(super) curves: &'a [Curve],
+}
+
+/// Encloses the `x` in `[-1, 1]` of the places `(lo + hi)/2 + (hi - lo)/2 x` of a part of `[lo, hi]`: the solution
+/// `((t - lo) - (hi - t))/(hi - lo)` grows with the place t, so its values at both ends do.
+fn places(part: Interval, of: Interval) -> Interval {
+    let (lo, hi) = (Interval::point(of.lo()), Interval::point(of.hi()));
+    let place = |t: f64| ((Interval::point(t) - lo) - (hi - Interval::point(t))) / (hi - lo);
+    place(part.lo()).hull(place(part.hi())).intersection(Interval::new(-1.0, 1.0))
+}
+
+impl Seen<'_> {
+    /// Whether a part of the cell is lit all over, or hidden all over; `None` if neither is proved.
+    fn settles(&self, part: [Interval; 2]) -> Option<bool> {
+        let places = [0, 1].map(|axis| places(part[axis], self.part[axis]));
+        if self.curves.iter().any(|curve| curve.hides_over(places)) {
+            Some(false)
+        } else if self.curves.iter().all(|curve| curve.free_over(places)) {
+            Some(true)
+        } else {
+            None
+        }
+    }
+
+    /// A rectangle that holds what is undecided of a part of the cell; what lies beside it is booked. `None` if nothing is left.
+    pub(super) fn undecided(&self, part: [Interval; 2], ledger: &mut Ledger<Rest>) -> Option<[Interval; 2]> {
+        let mut book = |part, lit| if lit { ledger.lit(area(part)) } else { ledger.shaded() };
+        if let Some(lit) = self.settles(part) {
+            book(part, lit);
+            return None;
+        }
+        let mut rest = part;
+        for (axis, upper) in [(0, false), (0, true), (1, false), (1, true)] {
+            for share in policy::CUTS {
+                let Some([cut, kept]) = policy::cut_off(rest[axis], share, upper) else { break };
+                let mut strip = rest;
+                strip[axis] = cut;
+                if let Some(lit) = self.settles(strip) {
+                    book(strip, lit);
+                    rest[axis] = kept;
+                } else if share == policy::CUTS[0] {
+                    break;
+                }
+            }
+        }
+        Some(rest)
+    }
+}
