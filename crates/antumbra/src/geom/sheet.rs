@@ -1,6 +1,7 @@
 //! Sheets of parameters over a light: where, along each ray, a slab of a shadow beam begins or ends.
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
+use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
 
 /// The parameter `t(u, v) = k + u_slope u + v_slope v` on the ray to the point `(u, v)` of a light: exactly this function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -9,6 +10,20 @@ pub struct Sheet {
     pub k: f64,
     /// Slopes by u and v.
     pub slopes: [f64; 2],
+}
+
+/// Encloses the products of an interval that does not cross 0, as the difference of two different numbers does not, with another one.
+///
+/// Of a number `s >= 0` with `x <= 0` the least product is that of the greatest s, with `x >= 0` that of the least s. Products with 0 are
+/// left out: they are exactly 0.
+#[inline]
+fn product([low, high]: [f64; 2], [from, to]: [f64; 2]) -> [f64; 2] {
+    if high <= 0.0 {
+        return product([-high, -low], [-to, -from]);
+    }
+    let lo = if from == 0.0 { 0.0 } else { mul_down(if from < 0.0 { high } else { low }, from) };
+    let hi = if to == 0.0 { 0.0 } else { mul_up(if to < 0.0 { low } else { high }, to) };
+    [lo, hi]
 }
 
 impl Sheet {
@@ -23,14 +38,15 @@ impl Sheet {
     /// Equal slopes are left out: their difference is exactly 0, and most sheets that are compared are parallel.
     #[must_use]
     pub fn minus(&self, o: &Self, part: [Interval; 2]) -> Interval {
-        let point = Interval::point;
-        let mut difference = point(self.k) - point(o.k);
+        let (mut lo, mut hi) = (sub_down(self.k, o.k), sub_up(self.k, o.k));
         for (i, along) in part.into_iter().enumerate() {
             if self.slopes[i] != o.slopes[i] {
-                difference = difference + (point(self.slopes[i]) - point(o.slopes[i])) * along;
+                let slope = [sub_down(self.slopes[i], o.slopes[i]), sub_up(self.slopes[i], o.slopes[i])];
+                let [low, high] = product(slope, [along.lo(), along.hi()]);
+                (lo, hi) = (add_down(lo, low), add_up(hi, high));
             }
         }
-        difference
+        Interval::try_new(lo, hi).unwrap_or(Interval::ENTIRE)
     }
 
     /// Whether all numbers are finite: only then may anything else be asked.

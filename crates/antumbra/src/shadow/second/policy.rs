@@ -39,7 +39,7 @@ const CERTAIN: u32 = 9;
 const FAIR: f64 = 4000.0;
 
 /// Most hits that are looked at together: enough to fill lanes with each kind of question, few enough to stay in a cache.
-const COMPANY: usize = 32;
+const COMPANY: usize = 64;
 /// How many join when the method has settled one.
 const JOIN: usize = 4;
 

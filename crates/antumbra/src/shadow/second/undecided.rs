@@ -1,21 +1,13 @@
 //! What the curves of a cell say about its parts, without another evaluation.
 use super::super::ledger::{Ledger, area};
 use super::{Rest, policy};
-use crate::geom::strips::Curve;
+use crate::geom::strips::{Curve, places};
 use antumbra_interval::Interval;
 
 /// A cell that was looked at, and what its slabs say of it ([`Says::Curves`](super::Says::Curves)).
 pub(super) struct Seen<'a> {
     pub(super) part: [Interval; 2],
     pub(super) curves: &'a [Curve],
-}
-
-/// Encloses the `x` in `[-1, 1]` of the places `(lo + hi)/2 + (hi - lo)/2 x` of a part of `[lo, hi]`: the solution
-/// `((t - lo) - (hi - t))/(hi - lo)` grows with the place t, so its values at both ends do.
-fn places(part: Interval, of: Interval) -> Interval {
-    let (lo, hi) = (Interval::point(of.lo()), Interval::point(of.hi()));
-    let place = |t: f64| ((Interval::point(t) - lo) - (hi - Interval::point(t))) / (hi - lo);
-    place(part.lo()).hull(place(part.hi())).intersection(Interval::new(-1.0, 1.0))
 }
 
 impl Seen<'_> {
