@@ -118,6 +118,10 @@ impl<'a> Desk<'a> {
         let pile = Q::pile(&self.piles[surface]);
         let mut asked = pile.borrow_mut();
         let first = asked.questions.len();
+        if first == 0 {
+            // Once, not step by step: questions are large.
+            asked.questions.reserve(Learned::COMPANY);
+        }
         asked.questions.extend(questions);
         Wait { pile, first, round: &self.round, asked: self.round.get() }
     }

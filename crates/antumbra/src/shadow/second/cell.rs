@@ -90,6 +90,7 @@ pub(super) async fn look(
     if open.len() == begin {
         return Answer::Lit;
     }
+    drop_implied(&mut s.constraints, open, begin);
     join(cell, open, begin);
     s.curves.clear();
     s.curves.extend(s.constraints.iter().map(|c| c.curve));
@@ -308,6 +309,29 @@ fn dominated(form: &Quadratic, kind: Kind, constraints: &[Constraint]) -> bool {
         let factor = policy::factor(c.kind, kind, c.t);
         form.minus(factor, &c.curve.upper, c.curve.error).eliminate().certainly_positive()
     })
+}
+
+/// Drops slabs that hide nothing but what another one hides (constraints and slabs come in the same order).
+///
+/// Let `L - k U > d + k e` all over the cell, k > 0, with the lower curve L of one slab, its error d, and the upper curve U of another one
+/// that hides where `U < -e`. Where the first one may hide, `L <= d`, so `U < -e`. Curves that run side by side become one, along which the
+/// cell can be cropped.
+fn drop_implied(constraints: &mut Vec<Constraint>, open: &mut Vec<Slab>, begin: usize) {
+    let implies = |by: &Curve, of: &Curve| {
+        let ([la, lb], [aa, bb, ab]) = (of.lower.l, of.lower.q);
+        let lower = Quadratic::polynomial(of.lower.c, [0.0, la, lb], [0.0, aa, bb, 0.0, 0.0, ab], of.error);
+        by.hides && lower.minus(policy::steepness_ratio(of, by), &by.upper, by.error).range().certainly_positive()
+    };
+    let mut k = 0;
+    while k < constraints.len() {
+        let this = &constraints[k].curve;
+        if constraints.iter().enumerate().any(|(other, by)| other != k && implies(&by.curve, this)) {
+            constraints.remove(k);
+            open.remove(begin + k);
+        } else {
+            k += 1;
+        }
+    }
 }
 
 fn constraint(least: &Eliminated, hides: bool, kind: Kind, t: f64) -> Constraint {

@@ -193,9 +193,9 @@ pub(super) async fn fraction(
         } else {
             let (from, to) = node.rest.curves;
             let seen = Seen { part: node.part, curves: &curves[from..to] };
-            let Some(part) = seen.undecided(node.part, ledger) else { continue };
+            let Some(part) = seen.undecided(node.part, ledger, claims) else { continue };
             let shape = policy::Shape::of(query.light, query.receiver.point.mid(), part);
-            let undecided = divide(part, shape.halved()).filter_map(|part| seen.undecided(part, ledger));
+            let undecided = divide(part, shape.halved()).filter_map(|part| seen.undecided(part, ledger, claims));
             parts.extend(undecided.map(|part| (part, node.rest.slabs)));
         }
     }

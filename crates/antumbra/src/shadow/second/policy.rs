@@ -2,10 +2,11 @@
 #![allow(clippy::float_arithmetic, reason = "choices of where to cut, never a proof")]
 use super::slab::{Kind, Looker};
 use crate::eval::PointJet;
-use crate::geom::strips::Band;
+use crate::geom::strips::{Band, Curve};
 use crate::geom::{Rect, Sheet, Vec3};
 use crate::shadow::Penumbra;
 use antumbra_interval::Interval;
+use antumbra_interval::quadratic::Paraboloid;
 
 /// Half thickness of the main slab, in widths of the cell.
 const MAIN: f64 = 1.0;
@@ -351,6 +352,9 @@ pub(in crate::shadow) struct Learned {
 }
 
 impl Learned {
+    /// Most hits that are looked at together.
+    pub(in crate::shadow) const COMPANY: usize = COMPANY;
+
     /// Whether the method is to be tried on the next hit: with `Auto`, not where it has failed of late.
     pub(in crate::shadow) fn worth(&mut self, penumbra: Penumbra) -> bool {
         match penumbra {
@@ -388,6 +392,13 @@ pub(super) fn factor(from: Kind, to: Kind, t: f64) -> f64 {
         (Kind::Slope, Kind::Plain) => t,
         _ => 1.0,
     }
+}
+
+/// The factor that makes one curve about as steep as another: any positive one is sound.
+pub(super) fn steepness_ratio(of: &Curve, to: &Curve) -> f64 {
+    let steepness = |p: &Paraboloid| p.l[0].abs() + p.l[1].abs();
+    let ratio = steepness(&of.lower) / steepness(&to.upper);
+    if ratio > 0.0 && ratio < f64::INFINITY { ratio } else { 1.0 }
 }
 
 /// Whether to divide a cell along its band rather than in quarters.

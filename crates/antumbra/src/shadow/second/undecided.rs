@@ -1,6 +1,6 @@
 //! What the curves of a cell say about its parts, without another evaluation.
 use super::super::ledger::{Ledger, area};
-use super::{Rest, policy};
+use super::{Claim, Rest, Says, policy};
 use crate::geom::strips::{Curve, places};
 use antumbra_interval::Interval;
 
@@ -24,8 +24,22 @@ impl Seen<'_> {
     }
 
     /// A rectangle that holds what is undecided of a part of the cell; what lies beside it is booked. `None` if nothing is left.
-    pub(super) fn undecided(&self, part: [Interval; 2], ledger: &mut Ledger<Rest>) -> Option<[Interval; 2]> {
-        let mut book = |part, lit| if lit { ledger.lit(area(part)) } else { ledger.shaded() };
+    pub(super) fn undecided(
+        &self,
+        part: [Interval; 2],
+        ledger: &mut Ledger<Rest>,
+        claims: &mut Option<Vec<Claim>>,
+    ) -> Option<[Interval; 2]> {
+        let mut book = |part, lit| {
+            if lit {
+                ledger.lit(area(part));
+            } else {
+                ledger.shaded();
+            }
+            if let Some(claims) = claims {
+                claims.push(Claim { part, says: if lit { Says::Lit } else { Says::Dark } });
+            }
+        };
         if let Some(lit) = self.settles(part) {
             book(part, lit);
             return None;
