@@ -119,3 +119,50 @@ fn a_circle_converges_to_its_area() {
     let nan = Curve { lower: Paraboloid { c: f64::NAN, ..circle }, ..whole };
     assert_eq!(areas(&[nan], 1e-6, &mut Scratch::default()), Areas { lit: 0.0, open: 1.0, band: None });
 }
+
+/// Places within a part are enclosed: against exact fractions.
+#[test]
+fn places_are_enclosed() {
+    use num_rational::BigRational;
+    let exact = |x: f64| BigRational::from_float(x).unwrap();
+    let mut r = Random(17);
+    for round in 0..2000 {
+        let width = [1.0, 1e-3, 1e-12][round % 3];
+        let (lo, x) = (r.next(), r.next());
+        let of = Interval::new(lo, lo + width * (1.5 + r.next()));
+        let t = (of.mid() + 0.5 * of.width() * x).clamp(of.lo(), of.hi());
+        let found = places(Interval::new(t, of.hi()), of);
+        let [low, high, t] = [of.lo(), of.hi(), t].map(exact);
+        let place = (&t + &t - &low - &high) / (high - low);
+        assert!(exact(found.lo()) <= place && found.hi() == 1.0, "{found:?} of {of:?}");
+        assert!(place - exact(found.lo()) <= exact(1e-14), "no lower than needed: {found:?} of {of:?}");
+    }
+}
+
+/// Bounds over parts of the square hold at points, and are exact where nothing is mixed.
+#[test]
+fn bounds_over_parts_hold() {
+    let mut r = Random(19);
+    for round in 0..2000 {
+        let mut p = r.paraboloid([0.0, 0.3, 2.0][round % 3]);
+        if round % 2 == 0 {
+            p.q[2] = 0.0;
+        }
+        let mut range = || {
+            let (x, y) = (r.next(), r.next());
+            Interval::new(x.min(y), x.max(y))
+        };
+        let [a, b] = [range(), range()];
+        let (lo, hi) = (p.lower_bound_over([a, b]), p.upper_bound_over([a, b]));
+        let (mut least, mut most) = (f64::INFINITY, f64::NEG_INFINITY);
+        let place = |t: Interval, k: i32| t.lo() + t.width() * f64::from(k) / 64.0;
+        for (i, j) in (0..=64).flat_map(|i| (0..=64).map(move |j| (i, j))) {
+            let value = at(&p, place(a, i).min(1.0), place(b, j).min(1.0));
+            (least, most) = (least.min(value), most.max(value));
+        }
+        assert!(lo <= least + 1e-14 && most - 1e-14 <= hi, "{p:?} {a:?} {b:?}: {lo} {least} {most} {hi}");
+        if p.q[2] == 0.0 {
+            assert!(least - lo < 2e-3 && hi - most < 2e-3, "{p:?} {a:?} {b:?}: {lo} {least} {most} {hi}");
+        }
+    }
+}

@@ -311,17 +311,20 @@ fn dominated(form: &Quadratic, kind: Kind, constraints: &[Constraint]) -> bool {
     })
 }
 
-/// Drops slabs that hide nothing but what another one hides (constraints and slabs come in the same order).
+/// Whether one slab hides wherever another one may hide.
 ///
-/// Let `L - k U > d + k e` all over the cell, k > 0, with the lower curve L of one slab, its error d, and the upper curve U of another one
-/// that hides where `U < -e`. Where the first one may hide, `L <= d`, so `U < -e`. Curves that run side by side become one, along which the
-/// cell can be cropped.
+/// Let `L - k U > d + k e` all over the cell, k > 0, with the lower curve L of that other slab, its error d, and the upper curve U of the
+/// first one, which hides where `U < -e`. Where the other one may hide, `L <= d`, so `U < -e`.
+pub(super) fn implies(first: &Curve, other: &Curve) -> bool {
+    let ([la, lb], [aa, bb, ab]) = (other.lower.l, other.lower.q);
+    let lower = Quadratic::polynomial(other.lower.c, [0.0, la, lb], [0.0, aa, bb, 0.0, 0.0, ab], other.error);
+    let factor = policy::steepness_ratio(other, first);
+    first.hides && lower.minus(factor, &first.upper, first.error).range().certainly_positive()
+}
+
+/// Drops slabs that hide nothing but what another one hides (constraints and slabs come in the same order): of curves that run side by
+/// side one is left, along which the cell can be cropped.
 fn drop_implied(constraints: &mut Vec<Constraint>, open: &mut Vec<Slab>, begin: usize) {
-    let implies = |by: &Curve, of: &Curve| {
-        let ([la, lb], [aa, bb, ab]) = (of.lower.l, of.lower.q);
-        let lower = Quadratic::polynomial(of.lower.c, [0.0, la, lb], [0.0, aa, bb, 0.0, 0.0, ab], of.error);
-        by.hides && lower.minus(policy::steepness_ratio(of, by), &by.upper, by.error).range().certainly_positive()
-    };
     let mut k = 0;
     while k < constraints.len() {
         let this = &constraints[k].curve;

@@ -1,8 +1,9 @@
 //! The steps one by one, on functions of which everything is known.
-use super::cell::{self, Answer, fall, level, look};
+use super::cell::{self, Answer, fall, implies, level, look};
 use super::policy::{Learned, Plan};
 use super::slab::{Cell, Convexity, Kind, Slab, State, Way};
 use crate::eval::{Gradient, Inclusion, JetPoint, QuadraticPoint, Workspace};
+use crate::geom::strips::Curve;
 use crate::geom::{Box3, Clip, Passage, Rect, Sheet, Vec3};
 use crate::shadow::desk::Desk;
 use crate::shadow::ledger::Ledger;
@@ -11,7 +12,7 @@ use crate::shadow::rectangle::Query;
 use crate::shadow::{Known, Penumbra, Receiver, Says, Scratch, Tolerance, visible};
 use crate::trace::{Cost, Piece, Sign, Surface};
 use antumbra_interval::affine::{Affine, Jet};
-use antumbra_interval::quadratic::Quadratic;
+use antumbra_interval::quadratic::{Paraboloid, Quadratic};
 use antumbra_interval::{Decorated, Interval};
 use std::ops::{Add, Mul, Sub};
 
@@ -127,7 +128,7 @@ fn claims_about_two_valleys_hold_on_dense_rays() {
                     let [u, v] =
                         [0, 1].map(|k| claim.part[k].mid() + 0.5 * (claim.part[k].hi() - claim.part[k].lo()) * at[k]);
                     let truth = least(&light, u, v, [0.0, 1.0]);
-                    let value = |p: &antumbra_interval::quadratic::Paraboloid| {
+                    let value = |p: &Paraboloid| {
                         p.c + at[0] * (p.l[0] + p.q[0] * at[0] + p.q[2] * at[1]) + at[1] * (p.l[1] + p.q[1] * at[1])
                     };
                     let (free, hidden) = match &claim.says {
@@ -267,12 +268,13 @@ fn sheets_in_the_wrong_order_prove_nothing() {
     assert_eq!(found(&straight, &plan(0.3, 0.05)), (Sheet { k: 0.3, slopes: [0.05, 0.0] }, [0.15, 0.15]));
     assert_eq!(found(&straight, &plan(0.1, 0.0)), (straight.lo, [0.0, 0.2]));
     assert_eq!(found(&straight, &plan(0.5, 0.0)), (straight.hi, [0.2, 0.0]));
-    // A plan that leaves the core on some rays: an end.
-    let (sheet, _) = found(&straight, &plan(0.3, 0.2));
-    assert!(sheet == straight.lo || sheet == straight.hi);
+    // A plan that leaves the core on some rays: parallel to the nearer end, in its place.
+    assert_eq!(found(&straight, &plan(0.28, 0.2)), (Sheet::level(0.28), [0.08, 0.12]));
     let crossed = core(Sheet { k: 0.3, slopes: [0.2, 0.0] }, Sheet { k: 0.32, slopes: [-0.2, 0.0] });
     assert_eq!(found(&crossed, &plan(0.1, 0.0)), (crossed.lo, [0.38, 0.42]));
     assert_eq!(found(&crossed, &plan(0.5, 0.0)), (crossed.hi, [0.42, 0.38]));
+    // Between sheets that cross nothing is proved to lie: the nearer end.
+    assert_eq!(found(&crossed, &plan(0.308, 0.0)), (crossed.lo, [0.38, 0.42]));
 }
 
 /// A slab is looked at as a whole, whichever sheet is the lower one.
@@ -317,7 +319,7 @@ fn cropping_loses_nothing() {
             for lit_above in [false, true] {
                 let band = crate::geom::strips::Band { across, lit_above, undecided: [[from, to]; 2] };
                 let mut ledger = Ledger::default();
-                ledger.open(part, [0.0, 1.0], super::Rest { slabs: (0, 0), band: Some(band) });
+                ledger.open(part, [0.0, 1.0], super::Rest { slabs: (0, 0), curves: (0, 0), band: Some(band) });
                 let (node, mut parts) = (ledger.next().unwrap(), Vec::new());
                 super::crop(&node, &band, &mut ledger, &mut parts);
                 let [sums_lo, sums_hi] = ledger.bounds();
@@ -335,6 +337,88 @@ fn cropping_loses_nothing() {
             }
         }
     }
+}
+
+fn curve(state: &mut u64, bend: f64) -> Curve {
+    let mut next = |scale: f64| scale * random(state);
+    let lower = Paraboloid { c: next(1.0), l: [next(1.0), next(1.0)], q: [next(bend), next(bend), next(bend)] };
+    Curve {
+        lower,
+        upper: Paraboloid { c: lower.c + next(0.01), ..lower },
+        error: next(0.05).abs(),
+        hides: next(1.0) > -0.8,
+    }
+}
+
+fn value(p: &Paraboloid, [a, b]: [f64; 2]) -> f64 {
+    p.c + a * (p.l[0] + p.q[0] * a + p.q[2] * b) + b * (p.l[1] + p.q[1] * b)
+}
+
+/// What is said of parts of a cell is true of points in them, and with what stays undecided it is all of the part.
+#[test]
+fn curves_tell_the_truth_of_parts() {
+    let mut state = 11;
+    let [mut lit, mut dark, mut settled] = [0; 3];
+    let cell = [Interval::new(-0.75, -0.25), Interval::new(0.1, 0.3)];
+    for round in 0..2000 {
+        let curves: Vec<Curve> = (0..1 + round % 3).map(|_| curve(&mut state, [0.0, 0.3, 1.0][round % 3])).collect();
+        let seen = super::Seen { part: cell, curves: &curves };
+        let part = [Interval::new(-0.75, -0.5), cell[1]];
+        let (mut ledger, mut claims) = (Ledger::default(), Some(Vec::new()));
+        let rest = seen.undecided(part, &mut ledger, &mut claims);
+        let claims = claims.unwrap();
+        settled += usize::from(rest.is_none());
+        let area = |part| super::area(part)[1];
+        let sum: f64 = claims.iter().map(|claim| area(claim.part)).sum::<f64>() + rest.map_or(0.0, area);
+        assert!((sum - area(part)).abs() < 1e-15, "{claims:?} {rest:?}: a partition");
+        for claim in &claims {
+            for _ in 0..50 {
+                let at = [0, 1].map(|k| {
+                    let place = claim.part[k].mid() + 0.5 * claim.part[k].width() * random(&mut state);
+                    (place - cell[k].mid()) / (0.5 * cell[k].width())
+                });
+                let free = |c: &Curve| value(&c.lower, at) > c.error - 1e-12;
+                let hides = |c: &Curve| c.hides && value(&c.upper, at) < -c.error + 1e-12;
+                match claim.says {
+                    Says::Lit => assert!(curves.iter().all(free), "{claim:?} {curves:?} at {at:?}"),
+                    Says::Dark => assert!(curves.iter().any(hides), "{claim:?} {curves:?} at {at:?}"),
+                    Says::Curves(_) => panic!("settled"),
+                }
+            }
+            lit += usize::from(claim.says == Says::Lit);
+            dark += usize::from(claim.says == Says::Dark);
+        }
+    }
+    assert!(lit > 500 && dark > 500 && settled > 300, "{lit} lit, {dark} dark, {settled} settled");
+}
+
+/// A slab that is dropped for another one hides nowhere where that does not; and curves that run side by side are told apart.
+#[test]
+fn what_is_implied_is_hidden_already() {
+    let mut state = 13;
+    let mut found = 0;
+    for round in 0..20_000 {
+        let (first, mut other) = (curve(&mut state, 0.3), curve(&mut state, 0.3));
+        if round % 2 == 0 {
+            // About a multiple of the first one, moved.
+            let up = 0.3 * random(&mut state);
+            let near = |p: &Paraboloid| Paraboloid { c: 2.0 * p.c + up, l: p.l.map(|x| 2.0 * x), q: p.q };
+            other = Curve { lower: near(&first.lower), upper: near(&first.upper), ..other };
+        }
+        if !implies(&first, &other) {
+            continue;
+        }
+        found += 1;
+        for _ in 0..50 {
+            let at = [random(&mut state), random(&mut state)];
+            let may_hide = value(&other.lower, at) <= other.error;
+            assert!(
+                !may_hide || first.hides && value(&first.upper, at) < -first.error,
+                "{first:?} {other:?} at {at:?}"
+            );
+        }
+    }
+    assert!(found > 500, "{found}");
 }
 
 /// Touching and overlapping pieces become one slab, others stay apart.
