@@ -72,6 +72,7 @@ pub struct Tolerance {
 pub struct Scratch {
     pub(super) shafts: super::shafts::Scratch,
     /// Of searches that are done, for others.
+    #[expect(clippy::vec_box, reason = "each moves into a search and out again")]
     idle: Vec<Box<Search>>,
     learned: second::Learned,
     claims: Option<Vec<second::Claim>>,

@@ -269,8 +269,8 @@ pub(super) fn level(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [f64; 2
     };
     // The core is all that lies between its sheets, whichever is the lower one.
     let (under, over) = (sheet.minus(&core.lo, part), core.hi.minus(&sheet, part));
-    let below = under.hi().max(-over.lo()).max(0.0);
-    let above = over.hi().max(-under.lo()).max(0.0);
+    let below = under.hi().max((-over).hi()).max(0.0);
+    let above = over.hi().max((-under).hi()).max(0.0);
     (Slab { lo: sheet, hi: sheet, state: State::Outer, ..*core }, [below, above])
 }
 
