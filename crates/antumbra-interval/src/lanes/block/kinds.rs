@@ -59,7 +59,11 @@ impl Packed for Quadratic {
     operators!();
 }
 
-impl<const N: usize> Packed for Jet<Affine<N>> {
+impl<const N: usize> Packed for Jet<Affine<N>>
+where
+    Self: sealed::Compiled,
+    Affine<N>: Packed,
+{
     const COMPONENTS: usize = 3 * (N + 2);
     #[inline(always)]
     fn component(&self, i: usize) -> f64 {
@@ -82,7 +86,12 @@ impl<const N: usize> Packed for Jet<Affine<N>> {
 
 macro_rules! slopes {
     ([$($generic:tt)*] $apex:ty, $form:ty) => {
-        impl<$($generic)*> Packed for SlopeOf<$apex, $form> {
+        impl<$($generic)*> Packed for SlopeOf<$apex, $form>
+        where
+            Self: sealed::Compiled,
+            $apex: Packed,
+            $form: Packed,
+        {
             const COMPONENTS: usize = <$apex>::COMPONENTS + 2 * <$form>::COMPONENTS;
             #[inline(always)]
             fn component(&self, i: usize) -> f64 {

@@ -17,9 +17,11 @@ mod x86;
 pub use x86::Avx2;
 
 use super::Level;
-use crate::Interval;
-use crate::affine::{Affine, Dual};
+use crate::affine::{Affine, Dual, Jet, SlopeOf};
+use crate::quadratic::Quadratic;
+use crate::{Interval, PointJet};
 use kernels::{AffineOf, DualOf, IntervalOf, Kernel};
+use sealed::{Act, Operation};
 pub use vector::WIDTH;
 use vector::{Eight, Plain, Vector};
 
@@ -57,25 +59,10 @@ impl Arithmetic {
         [Self::Neg, Self::Add, Self::Sub, Self::Mul, Self::Div, Self::Sqr, Self::Sqrt, Self::Abs, Self::Min, Self::Max];
 }
 
-/// An operation and its slots, as offsets in vectors of numbers.
-#[derive(Clone, Copy, Debug)]
-struct Act {
-    op: Operation,
-    out: usize,
-    operands: [usize; 3],
-}
-
-#[derive(Clone, Copy, Debug)]
-enum Operation {
-    Arithmetic(Arithmetic),
-    Power(u32),
-    Coordinate,
-}
-
-/// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`], [`Dual`], [`PointJet`](crate::PointJet),
+/// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`] forms in 1, 3 and 5 symbols, [`Dual`]s in one, [`PointJet`](crate::PointJet),
 /// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes: only for these. (Slopes of both from
 /// intervals, and of affine forms from affine forms.)
-pub trait Packed: Copy + sealed::Sealed {
+pub trait Packed: Copy + sealed::Sealed + sealed::Compiled {
     /// Numbers in it.
     const COMPONENTS: usize;
     /// Number `i` of it.
@@ -94,13 +81,68 @@ pub trait Packed: Copy + sealed::Sealed {
 }
 
 mod sealed {
-    use super::{Kernel, Vector};
+    use super::{Arithmetic, Eight, Kernel, Level, Vector};
+    /// An operation and its slots, as offsets in vectors of numbers.
+    #[derive(Clone, Copy, Debug)]
+    pub struct Act {
+        /// What.
+        pub(super) op: Operation,
+        /// Where the result goes.
+        pub(super) out: usize,
+        /// Where the operands are.
+        pub(super) operands: [usize; 3],
+    }
+
+    /// An operation.
+    #[derive(Clone, Copy, Debug)]
+    pub(super) enum Operation {
+        /// An operator.
+        Arithmetic(Arithmetic),
+        /// A power from 3 to 8.
+        Power(u32),
+        /// A coordinate on a ray.
+        Coordinate,
+    }
     /// Kinds of number with kernels.
     pub trait Sealed {
         /// Eight of them.
         type Of<V: Vector>: Kernel<V>;
     }
+    /// Kinds whose kernels are compiled here, once, and not again in every crate that runs them: they are most of what there is to compile.
+    pub trait Compiled {
+        /// The operation on all vectors.
+        fn run(level: Level, act: Act, memory: &mut [Eight], vectors: usize);
+    }
 }
+
+macro_rules! compiled {
+    ($($kind:ty),* $(,)?) => { $(
+        impl sealed::Compiled for $kind {
+            fn run(level: Level, act_: Act, memory: &mut [Eight], vectors: usize) {
+                match level {
+                    Level::Portable => act::<Plain, Self>(act_, memory, vectors),
+                    #[cfg(target_arch = "x86_64")]
+                    Level::Avx2(proof) => x86::with_avx2::<Self>(proof, act_, memory, vectors),
+                    #[cfg(target_arch = "x86_64")]
+                    Level::Avx512(proof) => x86::with_avx512::<Self>(proof, act_, memory, vectors),
+                }
+            }
+        }
+    )* };
+}
+compiled!(
+    Interval,
+    Affine<1>,
+    Affine<3>,
+    Affine<5>,
+    Dual<1>,
+    PointJet,
+    Quadratic,
+    Jet<Affine<3>>,
+    SlopeOf<Interval, Quadratic>,
+    SlopeOf<Interval, Jet<Affine<3>>>,
+    SlopeOf<Affine<5>, Affine<5>>,
+);
 
 impl sealed::Sealed for Interval {
     type Of<V: Vector> = IntervalOf<V>;
@@ -154,7 +196,10 @@ impl Packed for Interval {
     }
 }
 
-impl<const N: usize> Packed for Affine<N> {
+impl<const N: usize> Packed for Affine<N>
+where
+    Self: sealed::Compiled,
+{
     const COMPONENTS: usize = N + 2;
     #[inline(always)]
     fn component(&self, i: usize) -> f64 {
@@ -180,7 +225,11 @@ impl<const N: usize> Packed for Affine<N> {
     }
 }
 
-impl<const N: usize> Packed for Dual<N> {
+impl<const N: usize> Packed for Dual<N>
+where
+    Self: sealed::Compiled,
+    Affine<N>: Packed,
+{
     const COMPONENTS: usize = 2 * N + 4;
     #[inline(always)]
     fn component(&self, i: usize) -> f64 {
@@ -330,14 +379,7 @@ impl<F: Packed> Block<F> {
     fn act(&mut self, level: Level, op: Operation, out: usize, operands: [usize; 3]) {
         let size = self.size();
         let act_ = Act { op, out: out * size, operands: operands.map(|slot| slot * size) };
-        let (memory, vectors) = (&mut self.memory[..], self.vectors);
-        match level {
-            Level::Portable => act::<Plain, F>(act_, memory, vectors),
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx2(proof) => x86::with_avx2::<F>(proof, act_, memory, vectors),
-            #[cfg(target_arch = "x86_64")]
-            Level::Avx512(proof) => x86::with_avx512::<F>(proof, act_, memory, vectors),
-        }
+        F::run(level, act_, &mut self.memory, self.vectors);
     }
 
     /// `slot[out] = f(slot[a])`, lane by lane.
