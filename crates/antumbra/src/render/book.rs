@@ -11,8 +11,8 @@ use crate::verdict::{Reason, Verdict};
 use serde::{Deserialize, Serialize};
 use std::collections::BTreeMap;
 
-/// Frame, hits and statistics: all that a state holds of a render. Written by one thread; what is in it when the last tile
-/// is done does not depend on the order of the tiles.
+/// Frame, hits and statistics: all that a state holds of a render. Written by one thread at a time; what it says of a
+/// pixel when the last tile is done does not depend on the order of the tiles (how hits are numbered does: the bytes of a state with it).
 #[derive(Serialize, Deserialize)]
 pub(super) struct Book {
     pub(super) frame: Frame,

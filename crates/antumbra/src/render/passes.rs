@@ -24,7 +24,7 @@ impl Renderer {
         self.book.stats.grid_evaluations = self.grids.iter().map(Grid::evaluations).sum();
     }
 
-    /// One batch of tiles, or what comes between them. After the deadline no tile is begun but one for each thread.
+    /// One batch of tiles, or what comes between them. After the deadline no tile is begun but about one for each thread.
     pub(super) fn step(&mut self, deadline: Duration) {
         match self.stage {
             Stage::Grid => {
@@ -168,8 +168,9 @@ impl Batch {
     }
 
     /// Works on the tiles in their order, and tells how many of them were done. Each thread takes the next tile when it has done one, and
-    /// has what it found `put` where it belongs at once, while its caches hold it and nobody needs memory for many: one thread at a
-    /// time, the tiles in any order. Whatever is begun is done, so what is done has no gaps.
+    /// has what it found `put` at once, while its caches hold it: one thread at a
+    /// time, the tiles in any order. Whatever is begun is done, so what is done has no gaps. A panic ends the batch when the other threads are done with it;
+    /// tiles are then booked that do not count as done.
     fn each<T>(
         &self,
         crew: &Crew,
@@ -191,7 +192,7 @@ impl Batch {
                     break;
                 }
                 let found = work(self.block(turn), &mut scratch);
-                // Poisoned by a panic, which ends the batch.
+                // Poisoned by a panic, which ends the batch at once.
                 let Ok(mut put) = put.lock() else { break };
                 put(found);
             }

@@ -18,8 +18,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use std::time::Duration;
 
 /// Draws one scene. Ask it to [`refine`](Self::refine) until it is done; look at [`frame`](Self::frame) and
-/// [`stats`](Self::stats) whenever you like. The frame is the same, bit for bit, for any number of threads and any
-/// budgets, and whether it was drawn at one go or saved and resumed.
+/// [`stats`](Self::stats) whenever you like. The finished frame is the same, bit for bit, for any number of threads and any
+/// budgets, and whether it was drawn at one go or saved and resumed. After a panic in a user's own function it is spent.
 pub struct Renderer {
     pub(super) task: Task,
     pub(super) spec: RenderSpec,

@@ -80,8 +80,7 @@ impl Shaft {
         }
         let mut rest = [Interval::EMPTY; 3];
         for (k, rest) in rest.iter_mut().enumerate() {
-            // Exact: a term is 0.
-            *rest = Interval::try_new(least[k], sub_down(0.0, least[k + 3]))?;
+            *rest = Interval::try_new(least[k], -least[k + 3])?;
         }
         let (mut extent, mut roughness) = (0.0_f64, 0.0_f64);
         let apex = axes(|k| {

@@ -25,6 +25,9 @@ struct Constraint {
     kind: Kind,
     /// About its place.
     t: f64,
+    /// Its slab has its sheets in order on all rays, hence the curve runs in it: only then may others be dropped for it, as what is inherited is
+    /// the slab.
+    ordered: bool,
 }
 
 /// Scratch memory.
@@ -139,7 +142,13 @@ async fn plain(
         }
     }
     open.push(*slab);
-    s.constraints.push(constraint(&least, hides, kind, extent.middle()));
+    s.constraints.push(constraint(
+        &least,
+        hides,
+        kind,
+        extent.middle(),
+        slab.lo.certainly_at_most(&slab.hi, cell.part),
+    ));
     Settled::Slab
 }
 
@@ -194,8 +203,10 @@ async fn narrow(
         if fall.is_finite() {
             let least = least.lowered(fall);
             if !least.certainly_positive() {
-                open.push(Slab { state: State::Convex(convex), ..core });
-                s.constraints.push(constraint(&least, hides, convex.kind, cell.extent(&level).middle()));
+                let (kept, t) = (Slab { state: State::Convex(convex), ..core }, cell.extent(&level).middle());
+                open.push(kept);
+                let ordered = kept.lo.certainly_at_most(&kept.hi, part);
+                s.constraints.push(constraint(&least, hides, convex.kind, t, ordered));
             }
             return Settled::Slab;
         }
@@ -305,7 +316,7 @@ fn main_slab(cell: &Cell<'_>, core: &Slab, plan: &Plan) -> (Slab, [bool; 2]) {
 /// Whether a slab that hides on some ray lies beside another that hides there too: `g >= k U + k e > k g'(t_U)` wherever
 /// `min(Q - k U) > e + k e`, so `g <= 0` implies `g'(t_U) < 0`. Then the other one is enough.
 fn dominated(form: &Quadratic, kind: Kind, constraints: &[Constraint]) -> bool {
-    constraints.iter().filter(|c| c.curve.hides).any(|c| {
+    constraints.iter().filter(|c| c.curve.hides && c.ordered).any(|c| {
         let factor = policy::factor(c.kind, kind, c.t);
         form.minus(factor, &c.curve.upper, c.curve.error).eliminate().certainly_positive()
     })
@@ -328,7 +339,7 @@ fn drop_implied(constraints: &mut Vec<Constraint>, open: &mut Vec<Slab>, begin: 
     let mut k = 0;
     while k < constraints.len() {
         let this = &constraints[k].curve;
-        if constraints.iter().enumerate().any(|(other, by)| other != k && implies(&by.curve, this)) {
+        if constraints.iter().enumerate().any(|(other, by)| other != k && by.ordered && implies(&by.curve, this)) {
             constraints.remove(k);
             open.remove(begin + k);
         } else {
@@ -337,9 +348,9 @@ fn drop_implied(constraints: &mut Vec<Constraint>, open: &mut Vec<Slab>, begin: 
     }
 }
 
-fn constraint(least: &Eliminated, hides: bool, kind: Kind, t: f64) -> Constraint {
+fn constraint(least: &Eliminated, hides: bool, kind: Kind, t: f64, ordered: bool) -> Constraint {
     let curve = Curve { lower: least.lower, upper: least.upper, error: least.error, hides };
-    Constraint { curve, kind, t }
+    Constraint { curve, kind, t, ordered }
 }
 
 /// Joins open slabs of one surface that touch: a larger slab keeps the invariant, and there are fewer. Convex ones stay as they

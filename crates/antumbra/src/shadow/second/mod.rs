@@ -86,6 +86,8 @@ pub(super) struct Fraction {
     pub(super) lo: f64,
     pub(super) hi: f64,
     pub(super) cells: u32,
+    /// Whether the one part of the light that was open was proved lit at first sight.
+    pub(super) first_lit: bool,
 }
 
 impl Fraction {
@@ -101,7 +103,7 @@ impl Fraction {
 
     pub(super) fn bracket(&self, known: &Known, tolerance: Tolerance) -> Bracket {
         let reason = (sub_up(self.hi, self.lo) > tolerance.width).then_some(Reason::Budget);
-        Bracket { lo: self.lo, hi: self.hi, reason, first_free: known.whole() && self.cells == 1 && self.lo == 1.0 }
+        Bracket { lo: self.lo, hi: self.hi, reason, first_free: known.whole() && self.first_lit && self.lo == 1.0 }
     }
 }
 
@@ -149,7 +151,7 @@ pub(super) async fn fraction(
         slabs.extend(whole_slabs(pieces));
         parts.push((*part, (begin, slabs.len())));
     }
-    let mut cells = 0;
+    let (mut cells, mut first_lit) = (0, false);
     loop {
         while let Some((part, (from, to))) = parts.pop() {
             cells += 1;
@@ -167,7 +169,10 @@ pub(super) async fn fraction(
             }
             match answer {
                 Answer::Dark => ledger.shaded(),
-                Answer::Lit => ledger.lit(area(part)),
+                Answer::Lit => {
+                    first_lit |= cells == 1 && known.open.len() == 1;
+                    ledger.lit(area(part));
+                }
                 Answer::Open(Areas { lit, open, band }) => {
                     let first = curves.len();
                     curves.extend_from_slice(scratch.curves());
@@ -200,7 +205,7 @@ pub(super) async fn fraction(
         }
     }
     let [lo, hi] = ledger.bounds();
-    Fraction { lo, hi, cells }
+    Fraction { lo, hi, cells, first_lit }
 }
 
 /// Pieces of one surface that touch as slabs on all rays.
