@@ -5,7 +5,7 @@ use crate::geom::{Box3, Rect, axes};
 use crate::trace::Sign;
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
-use antumbra_interval::round::{add_up, mul_up, sub_down};
+use antumbra_interval::round::{add_up, mul_up, sub_down, sub_up};
 
 /// A hit at its place on the screen.
 #[derive(Clone, Copy, Debug)]
@@ -80,7 +80,8 @@ impl Shaft {
         }
         let mut rest = [Interval::EMPTY; 3];
         for (k, rest) in rest.iter_mut().enumerate() {
-            *rest = Interval::try_new(least[k], -least[k + 3])?;
+            // Exact: a term is 0.
+            *rest = Interval::try_new(least[k], sub_up(0.0, least[k + 3]))?;
         }
         let (mut extent, mut roughness) = (0.0_f64, 0.0_f64);
         let apex = axes(|k| {
