@@ -7,7 +7,7 @@ use std::io::Write;
 /// Bits per channel of a PNG.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Depth {
-    /// 8 bits, dithered: see [`code_8`].
+    /// 8 bits, dithered: see [`code_8`](super::code_8).
     #[default]
     Eight,
     /// 16 bits, rounded to nearest.

@@ -59,8 +59,8 @@ impl Arithmetic {
         [Self::Neg, Self::Add, Self::Sub, Self::Mul, Self::Div, Self::Sqr, Self::Sqrt, Self::Abs, Self::Min, Self::Max];
 }
 
-/// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`] forms in 1, 3 and 5 symbols, [`Dual`]s in one, [`PointJet`](crate::PointJet),
-/// [`Quadratic`](crate::quadratic::Quadratic), [`Jet`](crate::affine::Jet) of affine forms, and slopes: only for these. (Slopes of both from
+/// A kind of number that blocks hold. Implemented for [`Interval`], [`Affine`] forms in 1, 3 and 5 symbols, [`Dual`]s in one, [`PointJet`],
+/// [`Quadratic`], [`Jet`] of affine forms, and slopes: only for these. (Slopes of both from
 /// intervals, and of affine forms from affine forms.)
 pub trait Packed: Copy + sealed::Sealed + sealed::Compiled {
     /// Numbers in it.
