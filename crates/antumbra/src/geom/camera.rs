@@ -1,6 +1,7 @@
 //! The camera and its film.
 use super::{Beam, Box3, Vec3, vector::axes};
 use antumbra_interval::Interval;
+use std::ops::Range;
 
 /// A perspective camera. The exact numbers stored here *are* the camera of which a picture speaks: the ray through the
 /// film coordinates `(x, y)` in `[-1, 1]^2` has direction `forward + x right + y up` and leaves from `eye`; `forward`
@@ -82,7 +83,7 @@ impl Film {
 
     /// Film coordinates of the pixels `columns x rows` (half-open ranges), y upwards.
     #[must_use]
-    pub fn window(&self, columns: std::ops::Range<usize>, rows: std::ops::Range<usize>) -> [Interval; 2] {
+    pub fn window(&self, columns: Range<usize>, rows: Range<usize>) -> [Interval; 2] {
         [
             Self::edge(columns.start, self.width).hull(Self::edge(columns.end, self.width)),
             -Self::edge(rows.start, self.height).hull(Self::edge(rows.end, self.height)),
@@ -139,6 +140,37 @@ impl Film {
         let [x, y] = self.place(column, row, i, j, n);
         Beam { origin: self.camera.eye, direction: self.directions(x, y) }
     }
+
+    /// The centre rays of the pixels `columns x rows` (half-open ranges).
+    #[must_use]
+    pub fn rays(&self, columns: Range<usize>, rows: Range<usize>) -> Rays {
+        let Camera { eye, forward, right, up } = self.camera;
+        let corner = [columns.start, rows.start];
+        let across = columns.map(|k| Self::middle(k, self.width)).map(|x| axes(|i| x.mul_point(right[i]))).collect();
+        let upward = rows.map(|k| -Self::middle(k, self.height)).map(|y| axes(|i| y.mul_point(up[i]))).collect();
+        Rays { eye, forward: axes(|i| Interval::point(forward[i])), corner, across, upward }
+    }
+}
+
+/// The centre rays of a block of pixels: what a row or column has in common is computed once.
+#[derive(Clone, Debug)]
+pub struct Rays {
+    eye: Vec3,
+    forward: [Interval; 3],
+    corner: [usize; 2],
+    /// Of each column the part of the direction to the right, of each row the part upwards.
+    across: Vec<[Interval; 3]>,
+    upward: Vec<[Interval; 3]>,
+}
+
+impl Rays {
+    /// The same as [`Film::ray`], bit for bit. Panics if the pixel is not in the block.
+    #[must_use]
+    #[inline]
+    pub fn ray(&self, column: usize, row: usize) -> Beam {
+        let (across, upward) = (&self.across[column - self.corner[0]], &self.upward[row - self.corner[1]]);
+        Beam { origin: self.eye, direction: Box3(axes(|i| self.forward[i] + (across[i] + upward[i]))) }
+    }
 }
 
 #[cfg(test)]
@@ -155,6 +187,16 @@ mod tests {
                 let (b, r) = (beam.direction[axis], ray.direction[axis]);
                 assert!(b.lo() <= r.lo() && r.hi() <= b.hi() && r.width() < 1e-14);
             }
+        }
+    }
+
+    #[test]
+    fn rays_of_a_block_are_those_of_its_pixels() {
+        let camera = Camera::look_at(Vec3::new(4.0, -2.0, 2.0), Vec3::default(), 30.5, 37.0 / 23.0);
+        let film = Film { camera, width: 37, height: 23 };
+        let rays = film.rays(32..37, 3..23);
+        for (column, row) in (32..37).flat_map(|i| (3..23).map(move |j| (i, j))) {
+            assert_eq!(rays.ray(column, row), film.ray(column, row));
         }
     }
 

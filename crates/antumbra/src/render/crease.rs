@@ -29,7 +29,7 @@ pub(super) type Grids = (Vec<(usize, Fringe)>, Cost, Occupancy);
 pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> Grids {
     const RAYS: usize = EDGE_RAYS * EDGE_RAYS;
     let surfaces = task.surfaces();
-    let Scratch { work, frusta, rays, hits } = scratch;
+    let Scratch { work, frusta, rays, hits, .. } = scratch;
     let fan = |&index: &usize| {
         let (column, row) = task.place(index);
         task.film.fan(column..column + 1, row..row + 1)
@@ -51,7 +51,7 @@ pub(super) fn grids(task: &Task, pixels: &[usize], scratch: &mut Scratch) -> Gri
         .collect();
     let ray = |(k, beam): (usize, &Beam)| {
         let known: &Known = &open[k / RAYS];
-        Ray { beam: *beam, open: &known.open, inside: known.inside, bracket: None }
+        Ray { beam: *beam, open: &known.open, inside: known.inside }
     };
     let asked: Vec<Ray<'_>> = beams.iter().enumerate().map(ray).collect();
     let mut met: Vec<(usize, Meeting)> = Vec::with_capacity(beams.len());

@@ -1,7 +1,7 @@
 //! Memory that threads use again: from tile to tile nothing is allocated but results. What is in it never matters.
 use super::task::HitScratch;
 use crate::eval::Workspace;
-use crate::trace::{self, Frusta};
+use crate::trace::{self, Brackets, Frusta};
 use std::sync::Mutex;
 
 /// Scratch memory of one thread: keep it, it only grows.
@@ -10,6 +10,7 @@ pub(super) struct Scratch {
     pub(super) work: Workspace,
     pub(super) frusta: Frusta,
     pub(super) rays: trace::Scratch,
+    pub(super) brackets: Brackets,
     pub(super) hits: HitScratch,
 }
 

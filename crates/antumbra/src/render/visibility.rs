@@ -3,6 +3,8 @@
 //! Breadth first: all frusta of one size together, then the centre rays of all pixels together, and so on, so that
 //! evaluations come in batches. No search knows of its neighbours, hence all results and costs are those of one pixel
 //! after another.
+mod centres;
+
 use super::by_proof::{BLOCK, Block, indices};
 use super::coverage::{Looking, Part, Window, outward};
 use super::given::{Given, GivenPixel};
@@ -10,13 +12,11 @@ use super::pixel::{Edge, Hit, Known, Pixel};
 use super::spare::Scratch;
 use super::task::{Asked, Task};
 use crate::eval::Occupancy;
-use crate::geom::{Beam, Fan, Film};
+use crate::geom::{Beam, Fan};
 use crate::shadow::Receiver;
 use crate::trace::{
-    Bracket, Cost, Effort, Frustum, Known as Open, Meeting, Patch, Piece, Ray, Surface, first_meetings, narrow, patches,
+    Cost, Effort, Frustum, Known as Open, Meeting, Patch, Piece, Ray, Surface, first_meetings, narrow, patches,
 };
-use crate::verdict::Reason;
-use antumbra_interval::Interval;
 
 /// Blocks up to this side whose frustum is covered by one simple piece are not divided further.
 const SIMPLE: usize = 4;
@@ -47,13 +47,21 @@ struct Sight<'a> {
     row: usize,
     open: &'a Open,
     ray: Beam,
-    bracket: Option<Bracket>,
     pixel: Pixel,
     /// Another surface in front of what the centre ray meets.
     thin: Option<Box<Hit>>,
     /// Where its parts are, if it was divided.
     parts: Option<usize>,
     stage: Stage,
+}
+
+impl<'a> Sight<'a> {
+    /// Nothing is known but what is open in its block.
+    fn new(task: &Task, index: usize, open: &'a Open, ray: Beam, cost: Cost) -> Self {
+        let (column, row) = task.place(index);
+        let (pixel, thin, parts, stage) = (Pixel { cost, ..empty(index) }, None, None, Stage::Settled);
+        Self { column, row, open, ray, pixel, thin, parts, stage }
+    }
 }
 
 /// What is still to be found out about a pixel.
@@ -96,12 +104,12 @@ pub(super) fn primary(
     }
     let mut nodes = pass.divide(whole);
     pass.patches(&mut nodes);
-    let mut sights = pass.centres(&nodes);
+    let (simple, mut sights) = pass.centres(&nodes);
     let parts = pass.coverages(&mut sights);
     pass.corners(&mut sights, &parts);
     pass.edges(&mut sights, &parts);
     out.reserve(BLOCK * BLOCK);
-    in_order(task, &nodes, sights, |pixel| {
+    in_order(task, &nodes, simple, sights, |pixel| {
         if !is_given(given, pixel.index) {
             out.push(pixel);
         }
@@ -115,16 +123,26 @@ fn is_given(given: Option<&Given>, index: usize) -> bool {
 }
 
 /// All pixels, a block's quarter after the other. What a frustum costs is booked on the first pixel below it.
-fn in_order(task: &Task, nodes: &[Node], mut sights: Vec<Sight<'_>>, mut found: impl FnMut(Pixel)) {
+fn in_order(
+    task: &Task,
+    nodes: &[Node],
+    mut simple: Vec<Pixel>,
+    mut sights: Vec<Sight<'_>>,
+    mut found: impl FnMut(Pixel),
+) {
     const NONE: usize = usize::MAX;
     let mut seen = vec![NONE; BLOCK * BLOCK];
     let slot = |index: usize| {
         let (column, row) = task.place(index);
         row % BLOCK * BLOCK + column % BLOCK
     };
-    for (k, sight) in sights.iter().enumerate() {
-        seen[slot(sight.pixel.index)] = k;
-    }
+    // First the simple ones, then the others.
+    let pixels = simple.iter().chain(sights.iter().map(|sight| &sight.pixel));
+    pixels.enumerate().for_each(|(k, pixel)| seen[slot(pixel.index)] = k);
+    let mut take = |k: usize| match k.checked_sub(simple.len()) {
+        None => simple.get_mut(k).map(moved),
+        Some(k) => sights.get_mut(k).map(|sight| moved(&mut sight.pixel)),
+    };
     let (mut owed, mut stack) = (Cost::default(), vec![0]);
     while let Some(k) = stack.pop() {
         let node = &nodes[k];
@@ -134,14 +152,16 @@ fn in_order(task: &Task, nodes: &[Node], mut sights: Vec<Sight<'_>>, mut found: 
             for index in indices(task, node.block) {
                 // A pixel that nobody looked at is empty only if its frustum is.
                 let none = || node.open.certainly_empty().then(|| empty(index));
-                let sight = sights.get_mut(seen[slot(index)]);
-                let sight = sight.map(|sight| Pixel { edge: sight.pixel.edge.take(), ..sight.pixel });
-                let Some(mut pixel) = sight.or_else(none) else { continue };
+                let Some(mut pixel) = take(seen[slot(index)]).or_else(none) else { continue };
                 pixel.cost += std::mem::take(&mut owed);
                 found(pixel);
             }
         }
     }
+}
+
+fn moved(pixel: &mut Pixel) -> Pixel {
+    Pixel { edge: pixel.edge.take(), ..*pixel }
 }
 
 fn empty(index: usize) -> Pixel {
@@ -171,8 +191,7 @@ impl Primary<'_> {
         let mut meeting = Meeting { surface, t, before: Some(before), reason: None };
         let wide = |light: &Vec<[f64; 2]>| light[index][1] - light[index][0] > self.task.tolerance.width;
         if given.lights.iter().any(wide) {
-            let found =
-                self.meet_finely(&Ray { beam, open: &[Piece { surface, t }], inside: false, bracket: None }, &mut cost);
+            let found = self.meet_finely(&Ray { beam, open: &[Piece { surface, t }], inside: false }, &mut cost);
             // Of the roots in t the first: the very one that is given.
             meeting = found.filter(|m| m.reason.is_none() && m.before.is_some()).unwrap_or(meeting);
         }
@@ -243,49 +262,6 @@ impl Primary<'_> {
             node.cost += cost;
             node.patch = patch;
         });
-    }
-
-    /// What the centre rays of all pixels meet that may show something.
-    fn centres<'n>(&mut self, nodes: &'n [Node]) -> Vec<Sight<'n>> {
-        let mut sights: Vec<Sight<'n>> = Vec::with_capacity(BLOCK * BLOCK);
-        for node in nodes.iter().filter(|n| n.children.is_empty() && !n.open.certainly_empty()) {
-            let patch = node.patch.as_ref().map(|patch| (patch, Places::of(&self.task.film, node.block)));
-            for index in indices(self.task, node.block).filter(|index| !is_given(self.given, *index)) {
-                let (column, row) = self.task.place(index);
-                let ray = self.task.film.ray(column, row);
-                let bracket = patch.as_ref().and_then(|(patch, places)| patch.bracket(places.symbols(column, row)));
-                let (pixel, thin, parts, stage) = (empty(index), None, None, Stage::Settled);
-                sights.push(Sight { column, row, open: &node.open, ray, bracket, pixel, thin, parts, stage });
-            }
-        }
-        let rays: Vec<Ray<'_>> = sights
-            .iter()
-            .map(|s| Ray { beam: s.ray, open: &s.open.open, inside: s.open.inside, bracket: s.bracket })
-            .collect();
-        let found = self.meet(&rays, Effort::FINE);
-        let met: Vec<Met> =
-            sights.iter().zip(&found).enumerate().filter_map(|(k, (s, (m, _)))| Some((k, s.ray, (*m)?))).collect();
-        self.hits(&met, |k, hit| sights[k].pixel.hit = Some(hit));
-        for (sight, (centre, cost)) in sights.iter_mut().zip(found) {
-            let pixel = &mut sight.pixel;
-            pixel.cost = cost;
-            pixel.known = match centre {
-                Some(Meeting { reason: None, .. }) => Known::Hit,
-                Some(Meeting { reason: Some(reason), .. }) => Known::Undecided(reason),
-                None => Known::Undecided(Reason::Resolution),
-            };
-            let covered = sight.open.certainly_covered();
-            if pixel.known == Known::Undecided(Reason::Budget) {
-                pixel.coverage = [0.0, 1.0];
-            } else {
-                pixel.coverage = [1.0; 2];
-                // Else an edge, or something thin: how much of the pixel is covered, and by what?
-                if !(covered && sight.open.open.len() == 1 && pixel.known == Known::Hit) {
-                    sight.stage = Stage::Coverage;
-                }
-            }
-        }
-        sights
     }
 
     /// How much of the pixels is covered that are not simply covered; and what is in front of what their centre rays meet. Returns what is known of the
@@ -400,7 +376,7 @@ impl Primary<'_> {
         let place = film.place(column, row, i, j, EDGE_RAYS);
         let part = sight.parts.and_then(|k| parts[k].iter().find(|part| part.certainly_holds(place)));
         let Open { open, inside, .. } = part.map_or(sight.open, |part| &part.open);
-        Ray { beam: film.sub_ray(column, row, i, j, EDGE_RAYS), open, inside: *inside, bracket: None }
+        Ray { beam: film.sub_ray(column, row, i, j, EDGE_RAYS), open, inside: *inside }
     }
 
     fn meet(&mut self, rays: &[Ray<'_>], effort: Effort) -> Vec<(Option<Meeting>, Cost)> {
@@ -453,23 +429,4 @@ fn received(hit: Hit, ray: &Beam, m: &Meeting) -> Hit {
 /// Where an open piece of a pixel's beam begins to show.
 fn in_front(piece: &Piece, beam: Beam) -> Asked {
     Asked { object: piece.surface, beam, t: piece.t, before: None }
-}
-
-/// What the symbols of a block's fan are on its centre rays, column by column and row by row.
-struct Places {
-    corner: [usize; 2],
-    columns: [Interval; SIMPLE],
-    rows: [Interval; SIMPLE],
-}
-
-impl Places {
-    fn of(film: &Film, (column, row, side): Block) -> Self {
-        let [x, y] = film.window(column..(column + side).min(film.width), row..(row + side).min(film.height));
-        let columns = std::array::from_fn(|k| film.column_symbol(x, column + k));
-        Self { corner: [column, row], columns, rows: std::array::from_fn(|k| film.row_symbol(y, row + k)) }
-    }
-
-    fn symbols(&self, column: usize, row: usize) -> [Interval; 2] {
-        [self.columns[column - self.corner[0]], self.rows[row - self.corner[1]]]
-    }
 }

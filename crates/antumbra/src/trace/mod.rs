@@ -3,17 +3,21 @@
 //! Two families. The paper's: stackless bisection ("Root Searching") in the marked cells of a grid; what it reports is a
 //! section of T narrower than a limit in which the inclusion function could not exclude a zero, and its absence is a
 //! proof. The certified one: frusta in affine form, and quadratic where rays touch, that hand their open pieces down ([`narrow`]), what all
-//! rays of a block meet to second order ([`patches`]), and the first root of a ray, proved by signs and enclosed by contraction and interval Newton ([`first_meeting`]).
+//! rays of a block meet to second order ([`patches`]), and the first root of a ray, proved by signs ([`first_meeting`]) and enclosed by contraction and interval Newton
+//! ([`enclose`], where a patch has proved it).
 #![deny(clippy::float_arithmetic)]
 mod bisection;
+mod bracketed;
 mod crossing;
 mod frustum;
 mod patch;
 mod piece;
 mod policy;
 mod ray;
+mod root;
 
 pub use bisection::{Bisection, Search, first_section};
+pub use bracketed::{Bracketed, Brackets, enclose};
 pub use frustum::{Frusta, Frustum, Known, narrow};
 pub use patch::{Bracket, Patch, patches};
 pub use piece::{Piece, Sign, Surface, certainly_continuous};

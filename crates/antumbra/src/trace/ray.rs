@@ -1,7 +1,8 @@
 //! The first roots along rays, certified: many rays in lockstep, so that evaluations come in batches.
 use super::crossing::{Contracted, contract};
 use super::piece::certainly_continuous;
-use super::policy::{Effort, Reach, cut, smaller, straight, thin, tiny};
+use super::policy::{Effort, Reach, cut, smaller, tiny};
+use super::root::{Goal, Root, signed};
 use super::{Bracket, Cost, Piece, Sign, Surface};
 use crate::eval::{RayPiece, Workspace};
 use crate::geom::{Beam, Passage};
@@ -31,8 +32,6 @@ pub struct Ray<'a> {
     pub open: &'a [Piece],
     /// In all of them the ray is inside the region of their surface: proved.
     pub inside: bool,
-    /// If there is one open piece, what is proved of the first root in it: a start for the search. Else it is not used.
-    pub bracket: Option<Bracket>,
 }
 
 /// Scratch memory of ray searches: keep it, it only grows.
@@ -47,9 +46,6 @@ pub struct Scratch {
 }
 
 const UNKNOWN: Dual<1> = Dual { value: Affine::UNKNOWN, derivative: Affine::UNKNOWN };
-
-/// Steps towards one root at most.
-const STEPS: u32 = 40;
 
 /// What a search does next. Every step but the last asks for one or two evaluations.
 #[derive(Clone, Copy, Debug)]
@@ -73,18 +69,6 @@ struct Ends {
     derivative: Interval,
     found: Option<Contracted>,
     signs: [Option<Sign>; 2],
-}
-
-/// An interval that holds the first root: f has one sign before it, is not 0 from the beginning of the search up to its lower end,
-/// has the other sign behind it, and is continuous in between.
-#[derive(Clone, Copy, Debug)]
-struct Root {
-    t: Interval,
-    /// The sign of f before the root.
-    before: Sign,
-    /// Encloses f' on the interval, if f' has a sign there; else it says nothing.
-    derivative: Interval,
-    steps: u32,
 }
 
 /// A part of a ray that comes next.
@@ -142,8 +126,6 @@ impl Default for Search {
 /// before, and where the derivative is nearly constant by interval Newton, which takes half the time:
 /// `N = m - f(m) / f'(T)` contains every root in T (mean value theorem).
 ///
-/// Where a bracket is given ([`Patch::bracket`](super::Patch::bracket)) the search begins with it.
-///
 /// The searches do not know of each other: the answer for a ray, and its cost, are the same in any company.
 pub fn first_meetings(
     surfaces: &[Surface<'_>],
@@ -175,11 +157,13 @@ pub fn first_meetings(
                 let ray = rays[k].beam;
                 let mut at = |t: f64| points.push(RayPiece { ray, t: Interval::point(t) });
                 match searches[k].step {
-                    Step::Look(t) | Step::Narrow(Root { t, .. }) => pieces.push(RayPiece { ray, t }),
+                    Step::Look(t) | Step::Narrow(Root { bracket: Bracket { t, .. }, .. }) => {
+                        pieces.push(RayPiece { ray, t })
+                    }
                     Step::Ends(Ends { t, signs, .. }) => {
                         [t.lo(), t.hi()].into_iter().zip(signs).filter(|(_, s)| s.is_none()).for_each(|(t, _)| at(t));
                     }
-                    Step::Middle(root) => at(root.t.mid()),
+                    Step::Middle(root) => at(root.bracket.t.mid()),
                     Step::Done => {}
                 }
             }
@@ -199,12 +183,15 @@ pub fn first_meetings(
                 let context = Context { surfaces, ray: &rays[k], effort };
                 match search.step {
                     Step::Look(t) => search.looked(&context, t, value(), work),
-                    Step::Narrow(root) => search.narrowed(&context, root, value(), work),
+                    Step::Narrow(root) => {
+                        let goal = root.narrowed(&value(), search.reach, effort);
+                        search.pursue(&context, goal, work);
+                    }
                     Step::Ends(mut ends) => {
                         ends.signs = ends.signs.map(|sign| sign.or_else(|| Sign::of(range())));
                         search.met(&context, ends, work);
                     }
-                    Step::Middle(root) => search.stepped(&context, root, range()),
+                    Step::Middle(root) => search.pursue(&context, root.stepped(range(), effort), work),
                     Step::Done => {}
                 }
             }
@@ -226,17 +213,10 @@ pub fn first_meeting(
     cost: &mut Cost,
 ) -> Option<Meeting> {
     let mut meeting = None;
-    first_meetings(
-        surfaces,
-        &[Ray { beam: *beam, open, inside: false, bracket: None }],
-        effort,
-        scratch,
-        work,
-        |_, found, spent| {
-            meeting = found;
-            *cost += spent;
-        },
-    );
+    first_meetings(surfaces, &[Ray { beam: *beam, open, inside: false }], effort, scratch, work, |_, found, spent| {
+        meeting = found;
+        *cost += spent;
+    });
     meeting
 }
 
@@ -260,16 +240,7 @@ impl Search {
     fn begin(&mut self, c: &Context<'_>) {
         (self.best, self.cost, self.next) = (None, Cost::default(), 0);
         if self.begin_surface(c) {
-            match (c.ray.bracket, c.ray.open) {
-                // It is proved of the first root in the one open piece.
-                (Some(Bracket { surface, t, before }), [piece])
-                    if surface == piece.surface && t.is_subset_of(piece.t) =>
-                {
-                    self.stack.clear();
-                    self.enclose(c, Root { t, before, derivative: Interval::ENTIRE, steps: 0 }, piece.t);
-                }
-                _ => self.go_on(c),
-            }
+            self.go_on(c);
         }
     }
 
@@ -410,56 +381,30 @@ impl Search {
                 self.go_on(c);
             }
             [Some(before), Some(_)] => {
-                let open = found.map_or(t, |c| c.open);
-                self.enclose(c, Root { t: open, before, derivative, steps: 0 }, t);
+                let bracket = Bracket { surface: self.surface, t: found.map_or(t, |c| c.open), before };
+                self.pursue(c, Root::new(bracket, derivative).enclose(t, c.effort), work);
             }
             _ => self.go_closer(c, t, found, work),
         }
     }
 
-    /// Goes on with the root, if that pays, whose interval was `wider` before.
-    fn enclose(&mut self, c: &Context<'_>, root: Root, wider: Interval) {
-        if thin(root.t, c.effort) || root.steps == STEPS {
-            self.proved(c, root);
-        } else if !root.derivative.possibly_zero() && (straight(root.derivative) || !smaller(root.t, wider)) {
-            self.ask(1, Step::Middle(root));
-        } else {
-            self.ask(1, Step::Narrow(root));
-        }
-    }
-
-    fn narrowed(&mut self, c: &Context<'_>, root: Root, dual: Dual<1>, work: &mut Workspace) {
-        let derivative = signed(dual.derivative.range().intersection(root.derivative));
-        let open = contract(root.t, &dual.value).map_or(root.t, |c| c.open);
-        if derivative.possibly_zero() && !smaller(open, root.t) {
-            if tiny(root.t, self.reach, c.effort) {
-                return self.proved(c, root);
+    fn pursue(&mut self, c: &Context<'_>, goal: Goal, work: &mut Workspace) {
+        match goal {
+            Goal::Narrow(root) => self.ask(1, Step::Narrow(root)),
+            Goal::Middle(root) => self.ask(1, Step::Middle(root)),
+            Goal::Proved(root) => self.proved(c, root),
+            Goal::Unclear(Root { bracket: Bracket { t, before, .. }, .. }) => {
+                self.before = Some(before);
+                self.divide(c, t, work);
             }
-            // There may be several roots: which one is the first?
-            self.before = Some(root.before);
-            return self.divide(c, root.t, work);
         }
-        self.enclose(c, Root { t: open, derivative, steps: root.steps + 1, ..root }, root.t);
-    }
-
-    fn stepped(&mut self, c: &Context<'_>, root: Root, value: Interval) {
-        let narrower = (Interval::point(root.t.mid()) - value / root.derivative).intersection(root.t);
-        if narrower.is_empty() || narrower == root.t {
-            // Empty only if an enclosure failed: keep what is proved. Else rounding leaves no more.
-            return self.proved(c, root);
-        }
-        self.enclose(c, Root { t: narrower, steps: root.steps + 1, ..root }, root.t);
     }
 
     /// The interval holds the first root. It must lie where the surface exists.
-    fn proved(&mut self, c: &Context<'_>, Root { t, before, .. }: Root) {
+    fn proved(&mut self, c: &Context<'_>, root: Root) {
+        let t = root.bracket.t;
         let inside = t.intersection(self.passage.inner) == t;
         let reason = (!inside).then_some(Reason::Resolution);
-        self.conclude(c, Meeting { surface: self.surface, t, before: Some(before), reason });
+        self.conclude(c, Meeting { reason, ..root.meeting() });
     }
-}
-
-/// An enclosure of a derivative that has a sign; of another one nothing is kept.
-fn signed(derivative: Interval) -> Interval {
-    if derivative.is_empty() || derivative.possibly_zero() { Interval::ENTIRE } else { derivative }
 }
