@@ -3,7 +3,7 @@
 mod picture;
 mod serve;
 
-use std::{path::PathBuf, time::Duration};
+use std::{ffi::OsString, path::PathBuf, time::Duration};
 
 use antumbra::{
     render::{Method, Overlay, RenderSpec},
@@ -27,6 +27,18 @@ use crate::{
 pub(crate) struct Args {
     #[command(subcommand)]
     pub(crate) command: Command,
+}
+
+impl Args {
+    /// What clap makes of a command line, the program's name first. A formula that begins with a minus gets a space in front, so that it is none of its
+    /// options.
+    pub(crate) fn of(words: impl IntoIterator<Item = OsString>) -> Result<Self, clap::Error> {
+        let apart = |word: OsString| match word.to_str() {
+            Some(text) if values::is_negative_formula(text) => format!(" {text}").into(),
+            _ => word,
+        };
+        Self::try_parse_from(words.into_iter().map(apart))
+    }
 }
 
 #[derive(Debug, Subcommand)]

@@ -3,8 +3,6 @@
 
 use std::{fs, path::Path};
 
-use clap::Parser;
-
 use crate::{
     args::{Args, Command, SceneCommand},
     options::find_scene,
@@ -73,7 +71,7 @@ fn every_command_of_the_pages_is_one() {
                 continue;
             }
             checked += 1;
-            let args = match Args::try_parse_from(&words) {
+            let args = match Args::of(words.iter().map(Into::into)) {
                 Ok(args) => args,
                 Err(e) if !e.use_stderr() => continue,
                 Err(e) => panic!("{place}\n{e}"),

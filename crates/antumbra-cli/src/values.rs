@@ -243,6 +243,21 @@ pub(crate) fn likeness(a: &str, b: &str) -> f64 {
     strsim::jaro_winkler(a, b)
 }
 
+/// Whether a word is a formula that begins with a minus, and no option: it goes on with a variable, a number, a bracket, a function or another minus
+/// before one, and names a variable.
+pub(crate) fn is_negative_formula(word: &str) -> bool {
+    let Some(rest) = word.strip_prefix('-') else { return false };
+    let rest = rest.trim_start();
+    let name = rest.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(rest.len());
+    let begins = match rest.chars().next() {
+        Some('0'..='9' | '.' | '(') => true,
+        Some('x' | 'y' | 'z') if name == 1 => true,
+        // No option is followed by a bracket.
+        _ => name > 1 && rest[name..].starts_with('('),
+    };
+    begins && rest.contains(['x', 'y', 'z'])
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -297,5 +312,17 @@ mod tests {
         assert_eq!(nearest("x", &[]), None);
         assert!(exhibit("fig8").expect_err("no such exhibit").contains("table1"));
         assert!(method("papr").expect_err("no such method").contains("did you mean `paper`?"));
+    }
+
+    #[test]
+    fn formulas_that_begin_with_a_minus() {
+        for formula in ["-x^2 + 1", "-(x + y)", "- 2 z", "-.5x", "-3 x = y", "-sin(x) + y", "-exp(y)"] {
+            assert!(is_negative_formula(formula), "{formula}");
+        }
+        for other in
+            ["-o", "-ox.png", "-q", "--size", "-1", "-3,4,5", "-h", "-V", "x - y", "", "-", "--", "-sz", "-ox=y"]
+        {
+            assert!(!is_negative_formula(other), "{other}");
+        }
     }
 }

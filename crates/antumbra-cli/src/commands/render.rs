@@ -141,6 +141,9 @@ pub(super) fn run(options: &RenderOptions) -> Result<()> {
     Ok(())
 }
 
+/// Undecided hits are many from one in so many on: edges alone are fewer, but in the smallest pictures.
+const MANY: u64 = 10;
+
 /// What was found, what it cost, and where it is.
 fn summary(options: &RenderOptions, stats: &Stats) -> String {
     let spec = &options.spec;
@@ -167,6 +170,8 @@ fn summary(options: &RenderOptions, stats: &Stats) -> String {
         nothing(options, stats)
     } else if undecided == stats.hits && spec.method == Method::Certified {
         "\nno hit is proved: `--overlay verdict` shows why".to_owned()
+    } else if undecided > stats.hits / MANY && spec.method == Method::Certified {
+        "\nmany hits are undecided: `--overlay verdict` shows where and why".to_owned()
     } else {
         String::new()
     };

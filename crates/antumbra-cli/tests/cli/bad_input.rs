@@ -97,7 +97,8 @@ fn formulas_that_are_none() {
     refused(&["render", "x + 1/(2 - 2)"], 2, &["division by a constant that is exactly 0"]);
     refused(&["render", "nan"], 2, &["`nan` is not a real number"]);
     refused(&["render", "x + inf"], 2, &["`inf` is not a real number"]);
-    refused(&["render", "-x^2 + 1"], 2, &["-- -x"]);
+    refused(&["render", "-x^2 + $"], 2, &["`$` has no meaning here"]);
+    refused(&["render", "-sze", "64"], 2, &["unexpected argument '-s'"]);
     refused(&["render"], 2, &["SCENE-OR-FORMULA"]);
 }
 

@@ -32,6 +32,7 @@ fn a_formula_becomes_a_picture() {
     let reader = png::Decoder::new(Cursor::new(bytes)).read_info().unwrap();
     assert_eq!(reader.info().bit_depth, png::BitDepth::Sixteen);
     bench.antumbra(&["render", "-q", "-o", "m.png", "--size", "8", "--", "-x^2 + 1"]).assert().success();
+    bench.antumbra(&["render", "-q", "-x^2 - y^2 - z^2 + 1 = 0", "-o", "n.png", "--size", "8"]).assert().success();
 }
 
 #[test]
