@@ -17,6 +17,7 @@ use crate::shadow::Receiver;
 use crate::trace::{
     Cost, Effort, Frustum, Known as Open, Meeting, Patch, Piece, Ray, Surface, first_meetings, narrow, patches,
 };
+use smallvec::SmallVec;
 
 /// Blocks up to this side whose frustum is covered by one simple piece are not divided further.
 const SIMPLE: usize = 4;
@@ -103,11 +104,21 @@ pub(super) fn primary(
         return (out, Occupancy::default());
     }
     let mut nodes = pass.divide(whole);
+    let d: u64 = nodes.iter().map(|n| n.cost.evaluations).sum();
     pass.patches(&mut nodes);
+    let pt: u64 = nodes.iter().map(|n| n.cost.evaluations).sum();
+    let tot = |s: &[Sight<'_>]| s.iter().map(|s| s.pixel.cost.evaluations).sum::<u64>();
     let (simple, mut sights) = pass.centres(&nodes);
+    let (c1, n1, n2) = (simple.iter().map(|p| p.cost.evaluations).sum::<u64>(), simple.len(), sights.len());
+    let c2 = tot(&sights);
     let parts = pass.coverages(&mut sights);
+    let c3 = tot(&sights);
     pass.corners(&mut sights, &parts);
+    let c4 = tot(&sights);
+    let ne = sights.iter().filter(|s| s.stage == Stage::Edge).count();
     pass.edges(&mut sights, &parts);
+    let c5 = tot(&sights);
+    eprintln!("TALLY {d} {} {c1} {n1} {c2} {n2} {} {} {} {ne}", pt - d, c3 - c2, c4 - c3, c5 - c4);
     out.reserve(BLOCK * BLOCK);
     in_order(task, &nodes, simple, sights, |pixel| {
         if !is_given(given, pixel.index) {
@@ -314,7 +325,7 @@ impl Primary<'_> {
     fn corners<'n>(&mut self, sights: &mut [Sight<'n>], parts: &'n [Vec<Part>]) {
         for (i, j) in CORNERS {
             let mut asked: Vec<&mut Sight<'n>> = sights.iter_mut().filter(|s| s.stage == Stage::Corners).collect();
-            let rays: Vec<Ray<'_>> = asked.iter().map(|s| self.part(s, parts, i, j)).collect();
+            let rays: Vec<Ray<'_>> = asked.iter().map(|s| self.ray(s, parts, i, j)).collect();
             let found = self.meet(&rays, self.task.glance);
             let met: Vec<Met> = rays
                 .iter()
@@ -339,23 +350,26 @@ impl Primary<'_> {
     /// What a grid of rays meets in the pixels that show more than one thing.
     fn edges<'n>(&mut self, sights: &mut [Sight<'n>], parts: &'n [Vec<Part>]) {
         let mut asked: Vec<&mut Sight<'n>> = sights.iter_mut().filter(|s| s.stage == Stage::Edge).collect();
-        const RAYS: usize = EDGE_RAYS * EDGE_RAYS;
-        let rays: Vec<Ray<'_>> =
-            asked.iter().flat_map(|s| (0..RAYS).map(|k| self.part(s, parts, k % EDGE_RAYS, k / EDGE_RAYS))).collect();
+        // Which ray stands for which of a grid, and where those of each grid begin.
+        let (mut rays, mut stand, mut begin) = (Vec::new(), Vec::with_capacity(asked.len()), vec![0]);
+        for sight in &asked {
+            stand.push(self.grid(sight, parts, &mut rays));
+            begin.push(rays.len());
+        }
         let found = self.meet(&rays, self.task.glance);
         let met: Vec<Met> =
             rays.iter().zip(&found).enumerate().filter_map(|(k, (ray, (m, _)))| Some((k, ray.beam, (*m)?))).collect();
-        let mut grids: Vec<Vec<Option<Hit>>> = asked.iter().map(|_| vec![None; RAYS]).collect();
-        self.hits(&met, |k, hit| grids[k / RAYS][k % RAYS] = Some(hit));
-        for ((sight, grid), (rays, found)) in asked.iter_mut().zip(grids).zip(rays.chunks(RAYS).zip(found.chunks(RAYS)))
-        {
+        let mut seen: Vec<Option<Hit>> = vec![None; rays.len()];
+        self.hits(&met, |k, hit| seen[k] = Some(hit));
+        for ((sight, stand), range) in asked.iter_mut().zip(stand).zip(begin.windows(2)) {
             let Pixel { known, hit, cost, .. } = &mut sight.pixel;
-            for (ray, (meeting, spent)) in rays.iter().zip(found) {
-                *cost += *spent;
+            for k in range[0]..range[1] {
+                let (meeting, spent) = found[k];
+                *cost += spent;
                 if let (None, Some(Meeting { reason: None, .. })) = (*hit, meeting)
-                    && let Some(m @ Meeting { reason: None, .. }) = self.meet_finely(ray, cost)
+                    && let Some(m @ Meeting { reason: None, .. }) = self.meet_finely(&rays[k], cost)
                 {
-                    (*known, *hit) = (Known::Partly, Some(self.hit(&ray.beam, &m)));
+                    (*known, *hit) = (Known::Partly, Some(self.hit(&rays[k].beam, &m)));
                 }
             }
             // Something may be there that no ray of the grid meets: it must not vanish.
@@ -365,18 +379,44 @@ impl Primary<'_> {
                 let beam = self.task.film.beam(sight.column, sight.row);
                 *hit = Some(self.task.hit(in_front(piece, beam), &mut self.scratch.work));
             }
+            let grid = stand.iter().map(|k| seen[*k]).collect();
             sight.pixel.edge = Some(Box::new(Edge { rays: grid, thin: sight.thin.take().map(|hit| *hit) }));
         }
     }
 
-    /// The ray through the middle of a part of a pixel, with what is known of it.
-    fn part<'n>(&self, sight: &Sight<'n>, parts: &'n [Vec<Part>], i: usize, j: usize) -> Ray<'n> {
-        let Sight { column, row, .. } = *sight;
-        let film = &self.task.film;
-        let place = film.place(column, row, i, j, EDGE_RAYS);
-        let part = sight.parts.and_then(|k| parts[k].iter().find(|part| part.certainly_holds(place)));
-        let Open { open, inside, .. } = part.map_or(sight.open, |part| &part.open);
-        Ray { beam: film.sub_ray(column, row, i, j, EDGE_RAYS), open, inside: *inside }
+    /// Appends the rays of a pixel's grid that are to be followed, and tells which one stands for each. All rays of a part that one piece of a surface
+    /// covers see about the same: one of them is enough.
+    fn grid<'n>(
+        &self,
+        sight: &Sight<'n>,
+        parts: &'n [Vec<Part>],
+        rays: &mut Vec<Ray<'n>>,
+    ) -> [usize; EDGE_RAYS * EDGE_RAYS] {
+        let mut seen: SmallVec<[(usize, usize); 8]> = SmallVec::new();
+        std::array::from_fn(|k| {
+            let (i, j) = (k % EDGE_RAYS, k / EDGE_RAYS);
+            let simple = |open: &Open| open.certainly_covered() && open.open.len() == 1;
+            let part = self.part(sight, parts, i, j).filter(|(_, part)| simple(&part.open)).map(|(part, _)| part);
+            if let Some((_, ray)) = seen.iter().find(|(other, _)| Some(*other) == part) {
+                return *ray;
+            }
+            seen.extend(part.map(|part| (part, rays.len())));
+            rays.push(self.ray(sight, parts, i, j));
+            rays.len() - 1
+        })
+    }
+
+    /// The part of a divided pixel that holds a ray of its grid, and its number.
+    fn part<'n>(&self, sight: &Sight<'n>, parts: &'n [Vec<Part>], i: usize, j: usize) -> Option<(usize, &'n Part)> {
+        let place = self.task.film.place(sight.column, sight.row, i, j, EDGE_RAYS);
+        parts[sight.parts?].iter().enumerate().find(|(_, part)| part.certainly_holds(place))
+    }
+
+    /// A ray of a pixel's grid, with what is known of it.
+    fn ray<'n>(&self, sight: &Sight<'n>, parts: &'n [Vec<Part>], i: usize, j: usize) -> Ray<'n> {
+        let part = self.part(sight, parts, i, j);
+        let Open { open, inside, .. } = part.map_or(sight.open, |(_, part)| &part.open);
+        Ray { beam: self.task.film.sub_ray(sight.column, sight.row, i, j, EDGE_RAYS), open, inside: *inside }
     }
 
     fn meet(&mut self, rays: &[Ray<'_>], effort: Effort) -> Vec<(Option<Meeting>, Cost)> {
