@@ -1,5 +1,6 @@
-//! What a GPU takes for the four scenes of the paper: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats [WxH... [side of the paper's pictures, 0 for none]]]`.
-//! With `--despite` it goes on where the probe fails, for diagnosis. Prints what the probe says, contradictions against the CPU, and milliseconds by the clock of the GPU, medians.
+//! What a GPU takes for scenes: `cargo run --release -p antumbra-gpu --example gpu_table -- [repeats] [WxH...] [side of the paper's pictures, 0 for none] [scene...]`;
+//! without names, for those of the paper. With `--despite` it goes on where the probe fails, for diagnosis. Prints what the probe says, contradictions against the
+//! processor, and milliseconds by the clock of the GPU: medians, least and most, of pictures in 32 and in 64 bits that are drawn in turns, after some that do not count.
 use antumbra::eval::wgsl::{self, Width};
 use antumbra::geom::{Film, Rect};
 use antumbra::paper;
@@ -16,8 +17,6 @@ const SCENES: [&str; 4] = ["orthocircle", "chubs", "mcmullen", "kusner"];
 const TOLERANCE: f64 = 1.0 / 255.0;
 /// Side of the pictures that are compared with the CPU's.
 const COMPARED: usize = 96;
-/// Side of the pictures in 32 and 64 bits.
-const WIDE: usize = 128;
 
 fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
@@ -27,6 +26,11 @@ fn main() {
     let mut sizes: Vec<(usize, usize)> = arguments.iter().skip(1).filter_map(size).collect();
     if sizes.is_empty() {
         sizes = vec![(512, 512), (1920, 1080), (3840, 2160)];
+    }
+    let given = arguments.iter().map(String::as_str);
+    let mut names: Vec<&str> = given.filter(|s| s.starts_with(|c: char| c.is_ascii_alphabetic())).collect();
+    if names.is_empty() {
+        names = SCENES.to_vec();
     }
     for adapter in adapters() {
         println!(
@@ -58,45 +62,46 @@ fn main() {
             return;
         }
     };
-    rates(&gpu);
-    println!("\n| scene, {COMPARED} x {COMPARED} | empty | hits | left to the CPU | lights settled | contradictions |");
-    println!("|---|---|---|---|---|---|");
-    for name in SCENES {
+    rates(&gpu, &names);
+    println!(
+        "\n| scene, {COMPARED} x {COMPARED} | bits | compiled, s | empty | hits | left to the CPU | lights settled | contradictions |"
+    );
+    println!("|---|---|---|---|---|---|---|---|");
+    for name in &names {
         let scene = scene(name);
-        let proved = match draw(&gpu, &scene, (COMPARED, COMPARED), 1) {
-            Ok((proved, ..)) => proved,
-            Err(error) => {
-                println!("| {name} | {error} |");
-                continue;
-            }
-        };
+        let [single, double] = draw(&gpu, &scene, (COMPARED, COMPARED), 1);
         let mut cpu = renderer(scene, (COMPARED, COMPARED), Method::Certified);
         while !cpu.refine(Duration::from_secs(3600)) {}
-        let c = compare(&proved, cpu.frame(), TOLERANCE);
-        let open = c.pixels - c.empty - c.hits;
-        println!(
-            "| {name} | {} | {} | {open} | {} of {} | {} |",
-            c.empty,
-            c.hits,
-            c.settled,
-            c.lights,
-            c.contradictions.len()
-        );
-        c.contradictions.iter().take(5).for_each(|text| println!("  {text}"));
+        for (bits, drawn) in [(32, single), (64, double)] {
+            match drawn.map(|runs| (runs.compiled, compare(&runs.proved, cpu.frame(), TOLERANCE))) {
+                Ok((compiled, c)) => {
+                    println!(
+                        "| {name} | {bits} | {compiled:.2} | {} | {} | {} | {} of {} | {} |",
+                        c.empty,
+                        c.hits,
+                        c.pixels - c.empty - c.hits,
+                        c.settled,
+                        c.lights,
+                        c.contradictions.len()
+                    );
+                    c.contradictions.iter().take(5).for_each(|text| println!("  {text}"));
+                }
+                Err(error) => println!("| {name} | {bits} | {error} |"),
+            }
+        }
     }
-    widths(&gpu);
     if paper > 0 {
-        paper_counts(&gpu);
+        paper_counts(&gpu, &names);
     }
     println!("\nMilliseconds on the GPU, medians of {repeats}; evaluations in millions.\n");
-    table(&gpu, &sizes, repeats);
+    table(&gpu, &names, &sizes, repeats);
     if paper > 0 {
-        paper_table(&gpu, paper, repeats.min(5));
+        paper_table(&gpu, &names, paper, repeats.min(5));
     }
 }
 
 /// What the adapter can do, and what an evaluation of each scene's first surface asks of it.
-fn rates(gpu: &Gpu) {
+fn rates(gpu: &Gpu, names: &[&str]) {
     match throughput(gpu) {
         Ok(t) => {
             let giga = |rate: f64| format!("{:.1}", 1e-9 * rate);
@@ -110,7 +115,7 @@ fn rates(gpu: &Gpu) {
         Err(error) => println!("\nno throughput: {error}"),
     }
     println!("\n| scene | operations of a form | of a slope |\n|---|---|---|");
-    for name in SCENES {
+    for name in names {
         let [form, slope] = operations(&scene(name));
         println!("| {name} | {form} | {slope} |");
     }
@@ -138,56 +143,12 @@ fn operations(scene: &Scene) -> [u64; 2] {
     })
 }
 
-/// 32 against 64 bits, in one process and in turns.
-fn widths(gpu: &Gpu) {
-    println!(
-        "\n| scene, {WIDE} x {WIDE} | bits | pixels left | brackets left | evaluations: surfaces, light | milliseconds: surfaces, light |"
-    );
-    println!("|---|---|---|---|---|---|");
-    let stop = AtomicBool::new(false);
-    for name in SCENES.into_iter().chain(["links", "torus"]) {
-        let scene = scene(name);
-        let surfaces = surfaces(&scene);
-        let film = Film { camera: scene.view.camera(1.0), width: WIDE, height: WIDE };
-        let lights: Vec<Rect> = scene.lights.iter().map(|l| l.rect).collect();
-        let all = [Width::Single, Width::Double];
-        let kernels = all.map(|width| Kernels::of_width(gpu, &surfaces, &film, &lights, TOLERANCE, width));
-        let mut runs: [Vec<Proved>; 2] = Default::default();
-        for _ in 0..6 {
-            for (kernels, runs) in kernels.iter().zip(&mut runs) {
-                if let Ok(kernels) = kernels {
-                    runs.extend(kernels.prove(gpu, &stop, &mut |_| ()));
-                }
-            }
-        }
-        for (runs, bits) in runs.iter().zip([32, 64]) {
-            let [_, warm @ ..] = &runs[..] else { continue };
-            let (Some(last), clock) = (warm.last(), |f: &dyn Fn(&[f64]) -> f64| {
-                1e3 * median(warm.iter().filter(|p| !p.seconds.is_empty()).map(|p| f(&p.seconds)).collect())
-            }) else {
-                continue;
-            };
-            let open = last.pixels.iter().filter(|p| matches!(p, Pixel::Open { .. })).count();
-            let hit = |k: &usize| matches!(last.pixels[*k], Pixel::Hit { .. });
-            let wide = |l: &Vec<[f64; 2]>| (0..l.len()).filter(hit).filter(|k| l[*k][1] - l[*k][0] > TOLERANCE).count();
-            println!(
-                "| {name} | {bits} | {open} | {} | {}, {} | {:.1}, {:.1} |",
-                last.lights.iter().map(wide).sum::<usize>(),
-                last.evaluations[0],
-                last.evaluations[1],
-                clock(&|s| s[0]),
-                clock(&|s| s[1..].iter().sum()),
-            );
-        }
-    }
-}
-
-fn paper_counts(gpu: &Gpu) {
+fn paper_counts(gpu: &Gpu, names: &[&str]) {
     println!(
         "\n| the paper, {COMPARED} x {COMPARED}: GPU / CPU | hits | initial beams occluded | pixels in shadow | evaluations: pixels | initial | sub-beams |"
     );
     println!("|---|---|---|---|---|---|---|");
-    for name in SCENES {
+    for name in names {
         let scene = scene(name);
         match draw_paper(gpu, &scene, (COMPARED, COMPARED), paper::Method::Initial, 1) {
             Ok((found, _)) => compare_paper(name, scene, &found),
@@ -196,29 +157,31 @@ fn paper_counts(gpu: &Gpu) {
     }
 }
 
-fn table(gpu: &Gpu, sizes: &[(usize, usize)], repeats: usize) {
+fn table(gpu: &Gpu, names: &[&str], sizes: &[(usize, usize)], repeats: usize) {
     println!(
-        "| scene | size | surfaces | whole light | 8 x 8 | 16 x 16 | 32 x 32 | sum | wall, with reading back | pixels open % | brackets wider than 1/255 % of hits | divided hits, parts | evaluations: surfaces, light |"
+        "| scene | size | bits | surfaces | whole light | 8 x 8 | 16 x 16 | 32 x 32 | sum | wall, with reading back | pixels left | brackets left, of | divided hits, parts | evaluations: surfaces, light |"
     );
-    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|");
-    for &size in sizes {
-        for name in SCENES {
+    println!("|---|---|---|---|---|---|---|---|---|---|---|---|---|---|");
+    for &(width, height) in sizes {
+        for name in names {
             let scene = scene(name);
-            match draw(gpu, &scene, size, repeats) {
-                Ok((proved, times, wall)) => row(name, size, &proved, &times, wall),
-                Err(error) => println!("| {name} | {}x{} | {error} |", size.0, size.1),
+            for (bits, drawn) in [32, 64].into_iter().zip(draw(gpu, &scene, (width, height), repeats)) {
+                match drawn {
+                    Ok(runs) => println!("| {name} | {width}x{height} | {bits} | {} |", row(&runs)),
+                    Err(error) => println!("| {name} | {width}x{height} | {bits} | {error} |"),
+                }
             }
         }
     }
 }
 
-fn paper_table(gpu: &Gpu, side: usize, repeats: usize) {
+fn paper_table(gpu: &Gpu, names: &[&str], side: usize, repeats: usize) {
     println!("\nThe paper's method at {0} x {0}, milliseconds, medians of {1}.\n", side, repeats);
     println!(
         "| scene | grid | pixels | initial beams | sub-beams | shadow pass | always 49 | saved % | evaluations: pixels, initial, sub-beams, always 49 (millions) |"
     );
     println!("|---|---|---|---|---|---|---|---|---|");
-    for name in SCENES {
+    for name in names {
         let scene = scene(name);
         let drawn = draw_paper(gpu, &scene, (side, side), paper::Method::Initial, repeats);
         let always = draw_paper(gpu, &scene, (side, side), paper::Method::Fixed, repeats);
@@ -303,39 +266,59 @@ fn scene(name: &str) -> Scene {
     named(name).expect("it is a preset").expect("presets are right")
 }
 
-type Drawn = (Proved, Vec<f64>, f64);
+/// A picture's stages wait so long at least for a clock that rises under load; seconds.
+const WARM: f64 = 0.5;
 
-/// Draws it some times: what was proved, median seconds of each pass, and of the whole by the clock on the wall.
+/// Pictures of one width, without those that were drawn until the clocks were warm.
+#[derive(Default)]
+struct Runs {
+    /// Seconds until the kernels were compiled: none where they were known.
+    compiled: f64,
+    /// What is proved: the same every time.
+    proved: Proved,
+    /// Seconds of the stages.
+    stages: Vec<Vec<f64>>,
+    /// Seconds by the clock on the wall.
+    walls: Vec<f64>,
+}
+
+/// Draws it some times, in 32 and in 64 bits in turns.
 fn draw(
     gpu: &Gpu,
     scene: &Scene,
     (width, height): (usize, usize),
     repeats: usize,
-) -> Result<Drawn, antumbra_gpu::Error> {
+) -> [Result<Runs, antumbra_gpu::Error>; 2] {
     let surfaces = surfaces(scene);
     let film = Film { camera: scene.view.camera(width as f64 / height as f64), width, height };
     let lights: Vec<Rect> = scene.lights.iter().map(|l| l.rect).collect();
-    let begin = Instant::now();
-    let kernels = Kernels::new(gpu, &surfaces, &film, &lights, TOLERANCE)?;
-    if repeats > 1 {
-        let compiled = begin.elapsed().as_secs_f64();
+    let compile = |bits: Width| Kernels::of_width(gpu, &surfaces, &film, &lights, TOLERANCE, bits);
+    let mut all = [Width::Single, Width::Double].map(|bits| {
         let begin = Instant::now();
-        Kernels::new(gpu, &surfaces, &film, &lights, TOLERANCE)?;
-        println!("{}: compiled in {compiled:.3} s, again in {:.4} s", scene.name, begin.elapsed().as_secs_f64());
-    }
+        let kernels = compile(bits)?;
+        Ok((kernels, Runs { compiled: begin.elapsed().as_secs_f64(), ..Runs::default() }))
+    });
     let stop = AtomicBool::new(false);
-    let mut times: Vec<Vec<f64>> = Vec::new();
-    let mut walls = Vec::new();
-    let mut proved = kernels.prove(gpu, &stop, &mut |_| ())?;
-    for _ in 1..repeats {
-        let begin = Instant::now();
-        proved = kernels.prove(gpu, &stop, &mut |_| ())?;
-        walls.push(begin.elapsed().as_secs_f64());
-        times.push(proved.seconds.clone());
+    let begin = Instant::now();
+    let (mut cold, mut left) = (true, repeats);
+    while left > 0 {
+        for each in &mut all {
+            let Ok((kernels, runs)) = each else { continue };
+            let begin = Instant::now();
+            match kernels.prove(gpu, &stop, &mut |_| ()) {
+                Ok(_) if cold => {}
+                Ok(proved) => {
+                    runs.walls.push(begin.elapsed().as_secs_f64());
+                    runs.stages.push(proved.seconds.clone());
+                    runs.proved = proved;
+                }
+                Err(error) => *each = Err(error),
+            }
+        }
+        left -= usize::from(!cold);
+        cold = cold && begin.elapsed().as_secs_f64() < WARM;
     }
-    let passes = proved.seconds.len();
-    let medians = (0..passes).map(|k| median(times.iter().map(|t| t[k]).collect())).collect();
-    Ok((proved, medians, median(walls)))
+    all.map(|each| each.map(|(_, runs)| runs))
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -343,23 +326,29 @@ fn median(mut values: Vec<f64>) -> f64 {
     values.get(values.len() / 2).copied().unwrap_or(f64::NAN)
 }
 
-fn row(name: &str, (width, height): (usize, usize), proved: &Proved, times: &[f64], wall: f64) {
-    let ms = |s: f64| format!("{:.3}", 1e3 * s);
-    let each: Vec<String> = (0..5).map(|k| times.get(k).map_or("-".to_owned(), |s| ms(*s))).collect();
-    let open = proved.pixels.iter().filter(|p| matches!(p, Pixel::Open { .. })).count();
-    let hit = |p: &&(usize, &Pixel)| matches!(p.1, Pixel::Hit { .. });
-    let hits: Vec<usize> = proved.pixels.iter().enumerate().filter(|p| hit(&p)).map(|p| p.0).collect();
-    let wide = |k: &&usize| proved.lights[0][**k][1] - proved.lights[0][**k][0] > TOLERANCE;
-    let percent = |n: usize, of: usize| format!("{:.2}", 100.0 * n as f64 / of.max(1) as f64);
-    println!(
-        "| {name} | {width}x{height} | {} | {} | {} | {} | {} | {} | {:.1}, {:.1} |",
-        each.join(" | "),
-        ms(times.iter().sum()),
-        ms(wall),
-        percent(open, proved.pixels.len()),
-        percent(hits.iter().filter(wide).count(), hits.len()),
-        proved.divided.map(|n| n.to_string()).join(", "),
-        proved.evaluations[0] as f64 * 1e-6,
-        proved.evaluations[1] as f64 * 1e-6,
-    );
+/// Milliseconds: the median, the least and the most.
+fn spread(mut seconds: Vec<f64>) -> String {
+    seconds.sort_by(f64::total_cmp);
+    let ms = |s: Option<&f64>| s.map_or("-".to_owned(), |s| format!("{:.2}", 1e3 * s));
+    format!("{} ({}..{})", ms(seconds.get(seconds.len() / 2)), ms(seconds.first()), ms(seconds.last()))
+}
+
+fn row(runs: &Runs) -> String {
+    let last = &runs.proved;
+    let of = |f: &dyn Fn(&[f64]) -> Option<f64>| runs.stages.iter().filter_map(|s| f(s)).collect::<Vec<f64>>();
+    let stages: Vec<String> = (0..5).map(|k| format!("{:.2}", 1e3 * median(of(&|s| s.get(k).copied())))).collect();
+    let open = last.pixels.iter().filter(|p| matches!(p, Pixel::Open { .. })).count();
+    let hits: Vec<usize> = (0..last.pixels.len()).filter(|k| matches!(last.pixels[*k], Pixel::Hit { .. })).collect();
+    let wide = |l: &Vec<[f64; 2]>| hits.iter().filter(|k| l[**k][1] - l[**k][0] > TOLERANCE).count();
+    format!(
+        "{} | {} | {} | {open} | {}, {} | {} | {:.1}, {:.1}",
+        stages.join(" | "),
+        spread(of(&|s| (!s.is_empty()).then(|| s.iter().sum()))),
+        spread(runs.walls.clone()),
+        last.lights.iter().map(wide).sum::<usize>(),
+        hits.len() * last.lights.len(),
+        last.divided.map(|n| n.to_string()).join(", "),
+        last.evaluations[0] as f64 * 1e-6,
+        last.evaluations[1] as f64 * 1e-6,
+    )
 }

@@ -5,7 +5,7 @@
 #[cfg(feature = "native")]
 use crate::device::{self, Gpu};
 use crate::error::Error;
-use crate::machine::{Machine, Usage};
+use crate::machine::{Kernel, Machine, Usage};
 use crate::pace::Pace;
 use crate::receipt::{Receipts, tickets};
 use crate::scene::{self, Frame, Region, Upload};
@@ -54,7 +54,7 @@ pub struct Proved {
 /// The kernels of one scene, compiled.
 pub struct Kernels<M: Machine> {
     /// Surfaces, whole light, its first division, each further one.
-    stages: [Stage<M::Pipeline>; STAGES],
+    stages: Vec<Stage<M::Pipeline>>,
     frame: Frame,
     regions: Vec<Region>,
     /// Of the regions.
@@ -133,22 +133,19 @@ impl<M: Machine> Kernels<M> {
         let primary = format!("{common}\n{}", width.text(include_str!("kernels/primary.wgsl")));
         let shadow = format!("{common}\n{}", width.text(include_str!("kernels/shadow.wgsl")));
         let begin = if gpu.is_software() { 64 } else { 4096 };
-        let stage = |text: &str, entry: &str, constants: &[(&str, f64)]| -> Result<Stage<M::Pipeline>, Error> {
-            Ok(Stage { pipeline: gpu.pipeline(text, entry, constants)?, pace: Pace::new(begin) })
-        };
         // Of the tolerance, as a number of parts.
         let room = tolerance.clamp(1e-4, 0.1) * f64::from(SIDE * SIDE);
-        let divided = |entry, side: u32, aspect: f64| {
-            stage(&shadow, entry, &[("SIDE", f64::from(side)), ("ROOM", room), ("ASPECT", aspect)])
-        };
-        let stages = [
-            stage(&primary, "primary", &[])?,
-            stage(&shadow, "whole", &[])?,
-            divided("cells", SIDE, 2.0)?,
-            divided("refine", 2 * SIDE, 2.0)?,
-            // Shorter pieces pay where nothing is looked at again.
-            divided("refine", 4 * SIDE, 1.0)?,
-        ];
+        let divided = |side: u32, aspect: f64| [("SIDE", f64::from(side)), ("ROOM", room), ("ASPECT", aspect)];
+        // Shorter pieces pay where nothing is looked at again.
+        let [first, second, third] = [divided(SIDE, 2.0), divided(2 * SIDE, 2.0), divided(4 * SIDE, 1.0)];
+        let pipelines = gpu.pipelines(&[
+            Kernel { text: &primary, entry: "primary", constants: &[] },
+            Kernel { text: &shadow, entry: "whole", constants: &[] },
+            Kernel { text: &shadow, entry: "cells", constants: &first },
+            Kernel { text: &shadow, entry: "refine", constants: &second },
+            Kernel { text: &shadow, entry: "refine", constants: &third },
+        ])?;
+        let stages = pipelines.into_iter().map(|pipeline| Stage { pipeline, pace: Pace::new(begin) }).collect();
         let seal = scene::seal(&mut regions);
         Ok(Self { stages, frame, regions, seal, lights: lights.to_vec(), band: BAND, width })
     }

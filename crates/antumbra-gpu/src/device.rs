@@ -1,6 +1,6 @@
 //! Adapters, and one of them opened: buffers, pipelines, passes with their times.
 use crate::error::Error;
-use crate::machine::{Machine, Usage};
+use crate::machine::{Kernel, Machine, Usage};
 use crate::{probe, probe_double};
 use std::collections::HashMap;
 use std::sync::{Arc, Mutex, OnceLock, PoisonError};
@@ -228,35 +228,47 @@ impl Gpu {
         self.queue.write_buffer(buffer, 0, content);
     }
 
-    /// A kernel of the text; compiled once for each text, entry point and constants, as long as this device lives.
+    /// Kernels, compiled once for each text, entry point and constants, as long as this device lives; side by side, as drivers may take seconds for each.
+    pub(crate) fn pipelines(&self, kernels: &[Kernel<'_>]) -> Result<Vec<ComputePipeline>, Error> {
+        let key = |k: &Kernel<'_>| (k.text.to_owned(), format!("{} {:?}", k.entry, k.constants));
+        let kept = || self.pipelines.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut known: Vec<Option<ComputePipeline>> = kernels.iter().map(|k| kept().get(&key(k)).cloned()).collect();
+        std::thread::scope(|scope| {
+            let missing = kernels.iter().zip(&mut known).filter(|(_, known)| known.is_none());
+            missing.for_each(|(kernel, place)| drop(scope.spawn(move || *place = Some(self.compile(kernel)))));
+        });
+        // Whatever has failed is told here, and nothing is kept.
+        self.check()?;
+        let all: Vec<ComputePipeline> = known.into_iter().flatten().collect();
+        kept().extend(kernels.iter().map(key).zip(all.iter().cloned()));
+        Ok(all)
+    }
+
+    /// Not checked.
+    fn compile(&self, kernel: &Kernel<'_>) -> ComputePipeline {
+        let source = wgpu::ShaderSource::Wgsl(kernel.text.into());
+        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
+        self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
+            label: Some(kernel.entry),
+            layout: None,
+            module: &module,
+            entry_point: Some(kernel.entry),
+            compilation_options: wgpu::PipelineCompilationOptions {
+                constants: kernel.constants,
+                zero_initialize_workgroup_memory: false,
+            },
+            cache: None,
+        })
+    }
+
+    /// One of them.
     pub(crate) fn pipeline(
         &self,
         text: &str,
         entry: &str,
         constants: &[(&str, f64)],
     ) -> Result<ComputePipeline, Error> {
-        let key = (text.to_owned(), format!("{entry} {constants:?}"));
-        let kept = |gpu: &Self| gpu.pipelines.lock().unwrap_or_else(PoisonError::into_inner).get(&key).cloned();
-        if let Some(pipeline) = kept(self) {
-            return Ok(pipeline);
-        }
-        let source = wgpu::ShaderSource::Wgsl(text.into());
-        let module = self.device.create_shader_module(wgpu::ShaderModuleDescriptor { label: None, source });
-        self.check()?;
-        let pipeline = self.device.create_compute_pipeline(&wgpu::ComputePipelineDescriptor {
-            label: Some(entry),
-            layout: None,
-            module: &module,
-            entry_point: Some(entry),
-            compilation_options: wgpu::PipelineCompilationOptions {
-                constants,
-                zero_initialize_workgroup_memory: false,
-            },
-            cache: None,
-        });
-        self.check()?;
-        self.pipelines.lock().unwrap_or_else(PoisonError::into_inner).insert(key, pipeline.clone());
-        Ok(pipeline)
+        self.pipelines(&[Kernel { text, entry, constants }]).map(|mut all| all.remove(0))
     }
 
     /// Loses the device, as a driver does that was reset.
@@ -394,6 +406,10 @@ impl Machine for Gpu {
 
     fn pipeline(&self, text: &str, entry: &str, constants: &[(&str, f64)]) -> Result<ComputePipeline, Error> {
         self.pipeline(text, entry, constants)
+    }
+
+    fn pipelines(&self, kernels: &[Kernel<'_>]) -> Result<Vec<ComputePipeline>, Error> {
+        self.pipelines(kernels)
     }
 
     fn bind(&self, pipeline: &ComputePipeline, buffers: &[(u32, &Buffer)]) -> Result<BindGroup, Error> {

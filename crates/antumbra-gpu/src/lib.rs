@@ -46,7 +46,7 @@ pub use compare::{Comparison, compare};
 #[cfg(feature = "native")]
 pub use device::{Adapter, Gpu, adapters};
 pub use error::Error;
-pub use machine::{Machine, Usage};
+pub use machine::{Kernel, Machine, Usage};
 pub use paper::{Found, Paper};
 #[cfg(feature = "native")]
 pub use throughput::{Throughput, throughput};

@@ -11,6 +11,17 @@ pub enum Usage {
     Storage,
 }
 
+/// A kernel that is to be compiled: a text, an entry point of it, and the constants that it leaves open.
+#[derive(Clone, Copy, Debug)]
+pub struct Kernel<'a> {
+    /// The whole text.
+    pub text: &'a str,
+    /// Where it begins.
+    pub entry: &'a str,
+    /// Names and values.
+    pub constants: &'a [(&'a str, f64)],
+}
+
 /// A GPU that takes orders and carries them out one after the other.
 ///
 /// Only [`run`](Self::run) and [`read`](Self::read) wait. Whatever went wrong with any order before them is an error there at the latest: what
@@ -54,6 +65,14 @@ pub trait Machine {
     /// # Errors
     /// [`Error::Failed`], or only when it is run.
     fn pipeline(&self, text: &str, entry: &str, constants: &[(&str, f64)]) -> Result<Self::Pipeline, Error>;
+
+    /// The same of several kernels, at the same time where the driver can: it may take seconds for each.
+    ///
+    /// # Errors
+    /// Those of [`pipeline`](Self::pipeline).
+    fn pipelines(&self, kernels: &[Kernel<'_>]) -> Result<Vec<Self::Pipeline>, Error> {
+        kernels.iter().map(|k| self.pipeline(k.text, k.entry, k.constants)).collect()
+    }
 
     /// Binds buffers to the places of the first group.
     ///

@@ -2,7 +2,7 @@
 #[cfg(feature = "native")]
 use crate::device::{self, Gpu};
 use crate::error::Error;
-use crate::machine::{Machine, Usage};
+use crate::machine::{Kernel, Machine, Usage};
 use crate::pace::Pace;
 use crate::receipt::{Receipts, seal, tickets};
 use crate::scene::{self, Frame, Region};
@@ -39,7 +39,7 @@ struct Constants {
 
 /// The paper's method for one picture, compiled.
 pub struct Paper<M: Machine> {
-    kernels: [M::Pipeline; STAGES],
+    kernels: Vec<M::Pipeline>,
     paces: [Pace; STAGES],
     frame: Frame,
     regions: Vec<Region>,
@@ -98,8 +98,8 @@ impl<M: Machine> Paper<M> {
         let functions = scene::functions(surfaces, Width::Single, &kinds, &frame, film, lights)?;
         let [common, kernel] = [include_str!("kernels/frame.wgsl"), include_str!("kernels/paper.wgsl")];
         let text = format!("{FORMS}\n{INTERVALS}\n{common}\n{functions}\n{kernel}");
-        let pipeline = |entry| gpu.pipeline(&text, entry, &[]);
-        let kernels = [pipeline("grid")?, pipeline("pixels")?, pipeline("initial")?, pipeline("sub_beams")?];
+        let passes: [_; STAGES] = ["grid", "pixels", "initial", "sub_beams"];
+        let kernels = gpu.pipelines(&passes.map(|entry| Kernel { text: &text, entry, constants: &[] }))?;
         let begin = if gpu.is_software() { 64 } else { 4096 };
         let mut slabs = Vec::with_capacity(3 * n * surfaces.len());
         for surface in surfaces {

@@ -1,8 +1,8 @@
 //! CPU time of the stages of whole certified pictures of the four surfaces of the paper, and how full the lanes of batches were:
-//! `cargo run --release -p antumbra --example performance -- [SIZE] [RUNS]`.
+//! `cargo run --release -p antumbra --example performance -- [SIZE] [RUNS] [THREADS]`.
 //!
-//! Times are CPU seconds of the process (medians of interleaved runs, least and most in brackets), one thread; the last column is the
-//! wall time with one thread over that with two. A Markdown table.
+//! Times are CPU seconds of the process (medians of interleaved runs, least and most in brackets), one thread; the last columns are the
+//! wall time with one thread over that with two, four and so on, up to so many threads (2). A Markdown table.
 use antumbra::render::{RenderSpec, Renderer, RunSpec, Stats};
 use antumbra::scene::preset;
 use cpu_time::ProcessTime;
@@ -56,30 +56,33 @@ fn median(times: &[Times], which: usize) -> f64 {
 fn main() -> ExitCode {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let number = |i: usize, default: usize| arguments.get(i).map_or(Ok(default), |text| text.parse());
-    let (Ok(size), Ok(runs @ 1..)) = (number(0, 512), number(1, 5)) else {
-        eprintln!("usage: performance [SIZE] [RUNS], whole numbers");
+    let (Ok(size), Ok(runs @ 1..), Ok(most)) = (number(0, 512), number(1, 5), number(2, 2)) else {
+        eprintln!("usage: performance [SIZE] [RUNS] [THREADS], whole numbers");
         return ExitCode::from(2);
     };
-    println!(
-        "| {size} x {size} | surfaces, ms | light, ms | whole picture, ms | evaluations | lanes full | 2 threads |"
-    );
-    println!("|---|---|---|---|---|---|---|");
+    let threads: Vec<usize> = (0..usize::BITS).map(|k| 1 << k).take_while(|t| *t <= most.max(1)).collect();
+    let columns: String = threads[1..].iter().map(|t| format!(" {t} threads |")).collect();
+    println!("| {size} x {size} | surfaces, ms | light, ms | whole picture, ms | evaluations | lanes full |{columns}");
+    println!("|---|---|---|---|---|---|{}", "---|".repeat(threads.len() - 1));
     for name in SCENES {
-        let (mut one, mut two, mut stats) = (vec![], vec![], Stats::default());
+        let (mut times, mut stats) = (vec![vec![]; threads.len()], Stats::default());
         for _ in 0..runs {
-            let (times, found) = picture(name, size, 1);
-            one.push(times);
-            two.push(picture(name, size, 2).0);
-            stats = found;
+            for (threads, times) in threads.iter().zip(&mut times) {
+                let (taken, found) = picture(name, size, *threads);
+                times.push(taken);
+                stats = found;
+            }
         }
+        let one = &times[0];
+        let faster: String =
+            times[1..].iter().map(|times| format!(" {:.2} |", median(one, 3) / median(times, 3))).collect();
         println!(
-            "| {name} | {} | {} | {} | {} | {:.0} % | {:.2} |",
-            spread(&one, 0),
-            spread(&one, 1),
-            spread(&one, 2),
+            "| {name} | {} | {} | {} | {} | {:.0} % |{faster}",
+            spread(one, 0),
+            spread(one, 1),
+            spread(one, 2),
             stats.primary_evaluations + stats.shadow_evaluations,
             100.0 * stats.batched_questions as f64 / stats.batch_lanes.max(1) as f64,
-            median(&one, 3) / median(&two, 3),
         );
     }
     ExitCode::SUCCESS

@@ -75,23 +75,34 @@ fn pixel(index: u32) -> vec4<u32> {
     let centre = pixel_ray(index, 0.0);
     var a = first;
     var b = cover;
-    for (var round = 0u; round < 40u && b - a > 1u; round++) {
+    // One question at a time, all at one place of the text: threads of a group that are at different places wait for each other.
+    var ask = 0u;
+    var step = 0u;
+    var round = 0u;
+    while b - a > 1u && round < 40u {
         // Half of what is left, or a quarter from one of its ends, where the middle is too near to the root.
         let half = a + ((b - a) >> 1u);
         let quarter = max((b - a) >> 2u, 1u);
+        var at = half;
+        var len = 0u;
+        if ask == 1u { at = a; len = step; }
+        if ask == 2u { at = a; len = quarter; }
+        if ask == 3u { at = b - quarter; }
         evaluations++;
-        let at_half = f_sign(field(by, camera_point(centre, half, 0u)));
-        if at_half == -s { b = half; continue; }
-        let step = select(quarter, half - a, at_half == s);
-        evaluations++;
-        if f_sign(field(by, camera_point(centre, a, step))) == s { a += step; continue; }
-        if step > quarter {
-            evaluations++;
-            if f_sign(field(by, camera_point(centre, a, quarter))) == s { a += quarter; continue; }
+        let sign = f_sign(field(by, camera_point(centre, at, len)));
+        if ask == 0u && sign != -s {
+            step = select(quarter, half - a, sign == s);
+            ask = 1u;
+        } else if (ask == 1u || ask == 2u) && sign != s {
+            ask = select(3u, 2u, ask == 1u && step > quarter);
+        } else if ask == 3u && sign != -s {
+            break;
+        } else {
+            // Proved: the root is in what is left.
+            if ask == 0u { b = half; } else if ask == 3u { b -= quarter; } else { a += len; }
+            ask = 0u;
+            round++;
         }
-        evaluations++;
-        if f_sign(field(by, camera_point(centre, b - quarter, 0u))) == -s { b -= quarter; continue; }
-        break;
     }
     return vec4<u32>(HIT | (by << 8u) | (select(0u, 1u, s > 0) << 16u), a, b, evaluations);
 }

@@ -23,8 +23,10 @@ const SLOPE: f32 = 0.9;
 const NEAR: f32 = 0.3;
 // Evaluations that one part of the light may take; then nothing is known of it.
 const MOST = 256u;
-// Strips of a part of the light.
-const STRIPS = 8u;
+// The lines between eight strips of a part of the light, which is [-1, 1] wide: exact.
+const LINES_A = vec3<f32>(-1.0, -0.75, -0.5);
+const LINES_B = vec3<f32>(-0.25, 0.0, 0.25);
+const LINES_C = vec3<f32>(0.5, 0.75, 1.0);
 
 struct Hit { p: vec3<f32>, e: vec3<f32>, surface: u32, positive: bool }
 
@@ -102,6 +104,27 @@ fn half_plane(k: f32, a: f32, b: f32) -> f32 {
     return clamp(share - 7.6e-6, 0.0, 1.0);
 }
 
+// Where the lit part begins and ends along three lines.
+struct Lines { begin: vec3<f32>, end: vec3<f32> }
+
+// Of it, what is lit by a plane too: where a u + b v > rest, v being that of the line.
+fn cut(lines: Lines, at: vec3<f32>, a: f32, b: f32, rest: f32, pad: f32) -> Lines {
+    let rhs = add3(sub3(vec3<f32>(rest), mul3(vec3<f32>(b), at)), vec3<f32>(pad));
+    let most = vec3<f32>(abs(a));
+    // Nothing is divided by so little: a line is dark then, unless all of it is lit.
+    let flat = abs(a) < 1e-25;
+    let dark = (rhs >= most) | ((rhs >= -most) & vec3<bool>(flat));
+    let crossed = !dark & (rhs > -most) & vec3<bool>(!flat);
+    // The quotient of |rhs| < |a| is off by less than 8 u.
+    let u = fence3(rhs / vec3<f32>(select(a, f32(1.0), flat)));
+    let begin = select(lines.begin, max(lines.begin, u + vec3<f32>(4e-6)), crossed & vec3<bool>(a > 0.0));
+    let end = select(lines.end, min(lines.end, u - vec3<f32>(4e-6)), crossed & vec3<bool>(a <= 0.0));
+    return Lines(select(begin, vec3<f32>(2.0), dark), end);
+}
+
+// Lit points on two lines span a lit trapezoid: the lit part is convex.
+fn trapezoid(x: f32, y: f32) -> f32 { return select(f32(0.0), x + y, x > 0.0 && y > 0.0); }
+
 // Looks at a part of the light with all surfaces, between the parameters `from` and `until`. Where planes are wanted, they bound the shares
 // of the lit and of the hidden part.
 fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: u32, until: u32) -> Shares {
@@ -112,9 +135,9 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
     let size = 2.0 * max(length(ray.i), length(ray.j));
     let leaf = aspect * size / distance;
     // The lit part of the square is an intersection of half planes: where does it begin and end along the lines between strips?
-    var begin: array<f32, STRIPS + 1u>;
-    var end: array<f32, STRIPS + 1u>;
-    for (var i = 0u; i <= STRIPS; i++) { begin[i] = -1.0; end[i] = 1.0; }
+    var lines_a = Lines(vec3<f32>(-1.0), vec3<f32>(1.0));
+    var lines_b = lines_a;
+    var lines_c = lines_a;
     var hidden: f32 = 0.0;
     var swap = false;
     var open = 0u;
@@ -190,17 +213,10 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
                         hidden = max(hidden, half_plane(sub(-bottom, mul(e, 1.0 + 8.0 * U)), a, b));
                     }
                     let pad = mul(12.0 * U, add(add(abs(bottom), across), e));
-                    for (var i = 0u; i <= STRIPS; i++) {
-                        let v = f32(i) * (2.0 / f32(STRIPS)) - 1.0;
-                        // Lit where a u > rhs; the quotient of |rhs| < |a| is off by less than 8 u.
-                        let rhs = add(sub(sub(e, bottom), mul(b, v)), pad);
-                        if rhs >= abs(a) || abs(a) < 1e-25 {
-                            begin[i] = select(begin[i], 2.0, rhs >= -abs(a));
-                        } else if rhs > -abs(a) {
-                            let u = fence(rhs / a);
-                            if a > 0.0 { begin[i] = max(begin[i], u + 4e-6); } else { end[i] = min(end[i], u - 4e-6); }
-                        }
-                    }
+                    let rest = sub(e, bottom);
+                    lines_a = cut(lines_a, LINES_A, a, b, rest, pad);
+                    lines_b = cut(lines_b, LINES_B, a, b, rest, pad);
+                    lines_c = cut(lines_c, LINES_C, a, b, rest, pad);
                 }
             }
             pos += len;
@@ -210,15 +226,13 @@ fn look(hit: Hit, m: vec2<f32>, h: vec2<f32>, aspect: f32, planes: bool, from_: 
     atomicAdd(&account.evaluations, evaluations);
     if open == 0u { return Shares(1.0, 0.0, 0u, 0u); }
     if !planes { return Shares(0.0, 0.0, first, last); }
-    // Lit points on two lines span a lit trapezoid: the lit part is convex.
-    var area: f32 = 0.0;
-    for (var i = 0u; i < STRIPS; i++) {
-        let x = end[i] - begin[i];
-        let y = end[i + 1u] - begin[i + 1u];
-        if x > 0.0 && y > 0.0 { area += x + y; }
-    }
+    let x = lines_a.end - lines_a.begin;
+    let y = lines_b.end - lines_b.begin;
+    let z = lines_c.end - lines_c.begin;
+    let area = trapezoid(x.x, x.y) + trapezoid(x.y, x.z) + trapezoid(x.z, y.x) + trapezoid(y.x, y.y)
+        + trapezoid(y.y, y.z) + trapezoid(y.z, z.x) + trapezoid(z.x, z.y) + trapezoid(z.y, z.z);
     // Lengths of up to 2, twice per strip; some roundings of 2^-23.
-    let share = clamp(area * (0.25 / f32(STRIPS)) - 4e-6, 0.0, 1.0);
+    let share = clamp(area * (0.25 / 8.0) - 4e-6, 0.0, 1.0);
     return Shares(share, hidden, first, last);
 }
 
