@@ -306,24 +306,20 @@ impl Along {
         if self.least <= 0.0 || self.least.is_nan() || z.is_nan() {
             return None;
         }
-        let line = |h| Line { sign: self.sign, m: self.m, g: self.g, h };
         // About twice the offset; then all that the square may need.
         let near = 2.0 * z.abs() / self.steep;
-        if up != (z > 0.0) {
-            // The claim holds on the line itself, which may be moved back by so much, or less: by as much as tau allows.
-            let near = if near < 4.0 { near } else { 4.0 };
-            let whole = self.least < f64::INFINITY;
-            let tau = [near, 0.0].into_iter().find(|tau| whole || self.steepness(*tau)[0] > 0.0)?;
-            let h = if up { div_up(z, self.steepness(tau)[1]) } else { div_down(z, self.steepness(tau)[1]) };
-            return h.is_finite().then(|| line(h.clamp(-tau, tau)));
-        }
         [near, 4.0].into_iter().find_map(|tau| {
-            let [least, _] = self.steepness(tau);
+            let [least, most] = self.steepness(tau);
             if least <= 0.0 || least.is_nan() {
                 return None;
             }
-            let h = if up { div_up(z, least) } else { div_down(z, least) };
-            (h.abs() <= tau).then(|| line(h))
+            let h = match (up, z > 0.0) {
+                (true, true) => div_up(z, least),
+                (true, false) => div_up(z, most),
+                (false, true) => div_down(z, most),
+                (false, false) => div_down(z, least),
+            };
+            (h.abs() <= tau).then_some(Line { sign: self.sign, m: self.m, g: self.g, h })
         })
     }
 }
