@@ -1,7 +1,7 @@
 //! Sheets of parameters over a light: where, along each ray, a slab of a shadow beam begins or ends.
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
-use antumbra_interval::round::{add_down, add_up, mul_down, mul_up, sub_down, sub_up};
+use antumbra_interval::round::{add_up, mul_up, sub_down, sub_up};
 
 /// The parameter `t(u, v) = k + u_slope u + v_slope v` on the ray to the point `(u, v)` of a light: exactly this function.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -12,18 +12,15 @@ pub struct Sheet {
     pub slopes: [f64; 2],
 }
 
-/// Encloses the products of an interval that does not cross 0, as the difference of two different numbers does not, with another one.
+/// Upper bound of the products of an interval that does not cross 0, as the difference of two different numbers does not, with one from
+/// `from` to `to`.
 ///
-/// Of a number `s >= 0` with `x <= 0` the least product is that of the greatest s, with `x >= 0` that of the least s. Products with 0 are
+/// Of a number `s >= 0` the greatest product is one with `to`: that of the least s if `to <= 0`, else of the greatest. Products with 0 are
 /// left out: they are exactly 0.
 #[inline]
-fn product([low, high]: [f64; 2], [from, to]: [f64; 2]) -> [f64; 2] {
-    if high <= 0.0 {
-        return product([-high, -low], [-to, -from]);
-    }
-    let lo = if from == 0.0 { 0.0 } else { mul_down(if from < 0.0 { high } else { low }, from) };
-    let hi = if to == 0.0 { 0.0 } else { mul_up(if to < 0.0 { low } else { high }, to) };
-    [lo, hi]
+fn product_up([low, high]: [f64; 2], [from, to]: [f64; 2]) -> f64 {
+    let ([low, high], to) = if high <= 0.0 { ([-high, -low], -from) } else { ([low, high], to) };
+    if to == 0.0 { 0.0 } else { mul_up(if to < 0.0 { low } else { high }, to) }
 }
 
 impl Sheet {
@@ -37,16 +34,26 @@ impl Sheet {
     ///
     /// Equal slopes are left out: their difference is exactly 0, and most sheets that are compared are parallel.
     #[must_use]
+    #[inline]
     pub fn minus(&self, o: &Self, part: [Interval; 2]) -> Interval {
-        let (mut lo, mut hi) = (sub_down(self.k, o.k), sub_up(self.k, o.k));
+        Interval::try_new(-o.above_by(self, part), self.above_by(o, part)).unwrap_or(Interval::ENTIRE)
+    }
+
+    /// Upper bound of `self - o` over the part; NaN, which proves nothing, where numbers are not finite.
+    #[inline]
+    fn above_by(&self, o: &Self, part: [Interval; 2]) -> f64 {
+        let k = sub_up(self.k, o.k);
+        if self.slopes == o.slopes { k } else { self.tilted_above_by(o, k, part) }
+    }
+
+    fn tilted_above_by(&self, o: &Self, mut hi: f64, part: [Interval; 2]) -> f64 {
         for (i, along) in part.into_iter().enumerate() {
             if self.slopes[i] != o.slopes[i] {
                 let slope = [sub_down(self.slopes[i], o.slopes[i]), sub_up(self.slopes[i], o.slopes[i])];
-                let [low, high] = product(slope, [along.lo(), along.hi()]);
-                (lo, hi) = (add_down(lo, low), add_up(hi, high));
+                hi = add_up(hi, product_up(slope, [along.lo(), along.hi()]));
             }
         }
-        Interval::try_new(lo, hi).unwrap_or(Interval::ENTIRE)
+        hi
     }
 
     /// Whether all numbers are finite: only then may anything else be asked.
@@ -76,13 +83,21 @@ impl Sheet {
     /// Whether this sheet is proved to lie at or below another over the part.
     #[must_use]
     pub fn certainly_at_most(&self, o: &Self, part: [Interval; 2]) -> bool {
-        self.minus(o, part).hi() <= 0.0
+        self.above_by(o, part) <= 0.0
     }
 
     /// The sheet as a form, `u` and `v` given as forms.
     #[must_use]
-    pub fn form(&self, [u, v]: &[Affine<3>; 2]) -> Affine<3> {
-        (u.mul_f64(self.slopes[0]) + v.mul_f64(self.slopes[1])).add_f64(self.k)
+    #[inline]
+    pub fn form(&self, symbols: &[Affine<3>; 2]) -> Affine<3> {
+        self.tilt(symbols).add_f64(self.k)
+    }
+
+    /// What of it moves with `u` and `v`, which are given as forms.
+    #[must_use]
+    #[inline]
+    pub fn tilt(&self, [u, v]: &[Affine<3>; 2]) -> Affine<3> {
+        u.mul_f64(self.slopes[0]) + v.mul_f64(self.slopes[1])
     }
 }
 

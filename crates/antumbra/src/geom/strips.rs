@@ -14,10 +14,17 @@
 //! `s a < s x(y) + h`.
 //!
 //! Any line is sound; a tangent at the strip's middle makes `[R-, R+]` as thin as the curvature allows.
+//!
+//! Curves that turn back within the square have two lines in a strip, one at each [branch](branches).
+mod band;
+mod branches;
+
 use super::halfplanes::{self, Bound};
 use antumbra_interval::Interval;
 use antumbra_interval::quadratic::Paraboloid;
 use antumbra_interval::round::{add_down, add_up, div_down, div_up, mul_down, mul_up, sub_down, sub_up};
+pub use band::Band;
+use band::Tracker;
 
 /// What one slab says about a rectangle.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,6 +40,22 @@ pub struct Curve {
 }
 
 impl Curve {
+    /// Which of the two can be proved of a part, if any: by what a number near its middle says. No proof.
+    #[must_use]
+    pub fn leaning(&self, [a, b]: [Interval; 2]) -> Leaning {
+        let at = |p: &Paraboloid| {
+            let (a, b) = (0.5 * (a.lo() + a.hi()), 0.5 * (b.lo() + b.hi()));
+            p.c + a * (p.l[0] + p.q[0] * a + p.q[2] * b) + b * (p.l[1] + p.q[1] * b)
+        };
+        if at(&self.lower) > self.error {
+            Leaning::Free
+        } else if self.hides && at(&self.upper) < -self.error {
+            Leaning::Hiding
+        } else {
+            Leaning::Neither
+        }
+    }
+
     /// Whether the slab is proved free all over a part of the square.
     #[must_use]
     pub fn free_over(&self, part: [Interval; 2]) -> bool {
@@ -46,6 +69,17 @@ impl Curve {
     }
 }
 
+/// What a curve may say of all of a part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Leaning {
+    /// That the slab is free.
+    Free,
+    /// That it hides.
+    Hiding,
+    /// Neither.
+    Neither,
+}
+
 /// Encloses the `x` in `[-1, 1]` of the places `(lo + hi)/2 + (hi - lo)/2 x` of a part of `[lo, hi]`.
 ///
 /// The solution for a place t is `((t - lo) - (hi - t))/(hi - lo)`, which grows with t: the ends of the part have the ends. Both differences in
@@ -56,18 +90,6 @@ pub fn places(part: Interval, of: Interval) -> Interval {
     let place = |t: f64| ((t - of.lo()) - (of.hi() - t)) / (of.hi() - of.lo());
     let (lo, hi) = (place(part.lo()) - 8.0 * U, place(part.hi()) + 8.0 * U);
     Interval::new(lo.max(-1.0), hi.min(1.0))
-}
-
-/// Where the undecided part of a square lies, if it is a band along a curve.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Band {
-    /// The coordinate across the band: 0 for a, 1 for b.
-    pub across: usize,
-    /// Whether the lit side is that of larger values.
-    pub lit_above: bool,
-    /// Undecided values of this coordinate, for the lower and for the upper half of the other one: within `[-1, 1]`; all
-    /// values on one side of them are lit, all on the other hidden. The first one is larger where nothing is undecided.
-    pub undecided: [[f64; 2]; 2],
 }
 
 /// Shares of the square, in `[0, 1]`, and the band of what lies in between.
@@ -191,6 +213,7 @@ struct Line {
 }
 
 /// What a polynomial does along a line in a strip.
+#[derive(Clone, Copy, Debug)]
 struct Along {
     sign: f64,
     m: f64,
@@ -202,7 +225,7 @@ struct Along {
     change: f64,
     along: f64,
     slack: f64,
-    /// Lower bound of the steepness, with its sign, in the strip.
+    /// Lower bound of the steepness, with its sign, in the strip; infinite where it need be known near the line only.
     least: f64,
 }
 
@@ -212,10 +235,7 @@ impl Along {
     /// With `a = m + g y`, `b = b_m + d y`: `F = r_0 + r_1 y + r_2 y^2`. Every coefficient is a sum of at most 6 terms of at
     /// most 4 factors; the terms' magnitudes sum up to at most `size`: 16 roundings `u size` each, all told less than 64.
     fn tangent(p: &Paraboloid, strip: Strip) -> Option<Self> {
-        let (bm, d) = (strip.middle, strip.half);
-        let [la, lb] = p.l;
-        let [aa, bb, ab] = p.q;
-        let (c0, l0) = (p.c + bm * (lb + bb * bm), la + ab * bm);
+        let (aa, [c0, l0]) = (p.q[0], Self::middle(p, strip));
         // About the root nearest to the square; any number will do.
         let discriminant = l0 * l0 - 4.0 * aa * c0;
         let root = if discriminant >= 0.0 {
@@ -231,6 +251,21 @@ impl Along {
         } else {
             -1.0
         };
+        Self::through(p, strip, m)
+    }
+
+    /// In the middle of a strip, p is about `c + l a + q_aa a^2`.
+    fn middle(p: &Paraboloid, strip: Strip) -> [f64; 2] {
+        let bm = strip.middle;
+        [p.c + bm * (p.l[1] + p.q[1] * bm), p.l[0] + p.q[2] * bm]
+    }
+
+    /// The same for any line's place m in the middle of the strip.
+    fn through(p: &Paraboloid, strip: Strip, m: f64) -> Option<Self> {
+        let (bm, d) = (strip.middle, strip.half);
+        let [la, lb] = p.l;
+        let [aa, bb, ab] = p.q;
+        let [c0, l0] = Self::middle(p, strip);
         let steepness = l0 + 2.0 * aa * m;
         let g = -(lb + 2.0 * bb * bm + ab * m) / steepness * d;
         // A line that runs away says nothing.
@@ -268,7 +303,7 @@ impl Along {
     }
 
     fn offset(&self, z: f64, up: bool) -> Option<Line> {
-        if self.least <= 0.0 || self.least.is_nan() {
+        if self.least <= 0.0 || self.least.is_nan() || z.is_nan() {
             return None;
         }
         // About twice the offset; then all that the square may need.
@@ -290,7 +325,7 @@ impl Along {
 }
 
 impl Line {
-    /// Bounds of `1 - s x - h` at both ends of the strip: the length of the part of `[-1, 1]` that is beyond the line.
+    /// Bounds of `1 - s x - h` at both ends of the strip: the length, up to 2, of the part of `[-1, 1]` that is beyond the line.
     fn lengths_down(&self) -> [f64; 2] {
         let at = |y: f64| sub_down(1.0, add_up(add_up(self.sign * self.m, y * self.sign * self.g), self.h));
         [at(-1.0), at(1.0)]
@@ -326,34 +361,64 @@ fn positive_mean_up(p: f64, q: f64) -> f64 {
 }
 
 /// Bounds of the mean length of the part of `[-1, 1]` beyond a line, `clamp(w, 0, 2) = max(w, 0) - max(w - 2, 0)`.
-fn length_down(line: &Line) -> f64 {
-    let [p, q] = line.lengths_down();
-    sub_down(positive_mean_down(p, q), positive_mean_up(sub_up(p, 2.0), sub_up(q, 2.0)))
+/// Most lines leave all of the strip on one side, or neither end of `[-1, 1]`. (Each way asks for both lengths: a NaN takes the last one.)
+fn length_down([p, q]: [f64; 2]) -> f64 {
+    let (lo, hi) = if p < q { (p, q) } else { (q, p) };
+    if lo <= 0.0 && hi <= 0.0 {
+        0.0
+    } else if lo >= 2.0 && hi >= 2.0 {
+        2.0
+    } else if lo >= 0.0 && hi <= 2.0 {
+        0.5 * add_down(lo, hi)
+    } else {
+        sub_down(positive_mean_down(p, q), positive_mean_up(sub_up(p, 2.0), sub_up(q, 2.0)))
+    }
 }
-fn length_up(line: &Line) -> f64 {
-    let [p, q] = line.lengths_up();
-    sub_up(positive_mean_up(p, q), positive_mean_down(sub_down(p, 2.0), sub_down(q, 2.0)))
+fn length_up([p, q]: [f64; 2]) -> f64 {
+    let (lo, hi) = if p < q { (p, q) } else { (q, p) };
+    if lo <= 0.0 && hi <= 0.0 {
+        0.0
+    } else if lo >= 2.0 && hi >= 2.0 {
+        2.0
+    } else if lo >= 0.0 && hi <= 2.0 {
+        0.5 * add_up(lo, hi)
+    } else {
+        sub_up(positive_mean_up(p, q), positive_mean_down(sub_down(p, 2.0), sub_down(q, 2.0)))
+    }
 }
 
 /// Mean lengths, in `[0, 2]`, of the lit and of the not hidden part of a strip with one curve.
 fn single(curve: &Curve, strip: Strip, band: &mut Tracker, s: &mut halfplanes::Scratch) -> (f64, f64) {
     let inside = Along::tangent(&curve.lower, strip);
-    let inner = inside.as_ref().and_then(|p| p.above(curve.error));
-    let outer = if !curve.hides {
+    let outside = if !curve.hides {
         None
     } else if curve.upper == curve.lower {
-        inside.as_ref().and_then(|p| p.below(curve.error))
+        inside
     } else {
-        Along::tangent(&curve.upper, strip).and_then(|p| p.below(curve.error))
+        Along::tangent(&curve.upper, strip)
     };
-    band.add(strip, inner.as_ref(), outer.as_ref());
-    let lit = match &inner {
-        Some(line) => length_down(line),
-        None => halfplanes::mean_in(&[flat(&curve.lower, curve.error, strip, true)], s),
+    let beyond = inside.and_then(|p| p.above(curve.error)).map(|line| line.lengths_down());
+    let until = outside.and_then(|p| p.below(curve.error)).map(|line| line.lengths_up());
+    match (inside, outside) {
+        // Where no line is found, nothing is proved beyond it: lengths 0 and 2.
+        (Some(inner), Some(outer)) if inner.least > 0.0 && outer.least > 0.0 => {
+            band.add(strip, [inner.sign, outer.sign], beyond.unwrap_or([0.0; 2]), until.unwrap_or([2.0; 2]));
+        }
+        _ => band.broken(),
+    }
+    let lit = match beyond {
+        Some(lengths) => length_down(lengths),
+        None => {
+            let plane = halfplanes::mean_in(&[flat(&curve.lower, curve.error, strip, true)], s);
+            f64::max(plane, branches::lit(&curve.lower, curve.error, strip))
+        }
     };
-    let open = match &outer {
-        Some(line) => length_up(line),
-        None if curve.hides => halfplanes::mean_out(&[flat(&curve.upper, curve.error, strip, false)], s),
+    let open = match until {
+        Some(lengths) => length_up(lengths),
+        None if curve.hides => {
+            let plane = halfplanes::mean_out(&[flat(&curve.upper, curve.error, strip, false)], s);
+            f64::min(plane, branches::open(&curve.upper, curve.error, strip))
+        }
         None => 2.0,
     };
     // NaN proves nothing.
@@ -396,45 +461,6 @@ fn flat(p: &Paraboloid, e: f64, strip: Strip, inner: bool) -> Bound {
     let rest = sa.abs() + sb.abs() + ab.abs() * d + e + (64.0 * U * (p.size() + e) + f64::MIN_POSITIVE);
     let (a, b) = (d * (lb + 2.0 * bb * bm), la + ab * bm);
     Bound { c: if inner { sub_down(middle, rest) } else { add_up(middle, rest) }, a, b }
-}
-
-/// Collects the band of a single curve.
-#[derive(Default)]
-struct Tracker {
-    broken: bool,
-    sign: f64,
-    /// In the direction of the sign, for both halves: from where on not certainly hidden, from where on certainly lit.
-    halves: [Option<[f64; 2]>; 2],
-}
-
-impl Tracker {
-    fn add(&mut self, strip: Strip, inner: Option<&Line>, outer: Option<&Line>) {
-        let (Some(inner), Some(outer)) = (inner, outer) else {
-            self.broken = true;
-            return;
-        };
-        self.broken |= inner.sign != outer.sign || (self.sign != 0.0 && self.sign != inner.sign);
-        self.sign = inner.sign;
-        // 1 - length is the place.
-        let [lit, hidden] = [inner.lengths_down(), outer.lengths_up()];
-        let to = f64::max(sub_up(1.0, lit[0]), sub_up(1.0, lit[1]));
-        let from = f64::min(sub_down(1.0, hidden[0]), sub_down(1.0, hidden[1]));
-        let half = &mut self.halves[usize::from(strip.upper)];
-        *half = Some(half.map_or([from, to], |[f, t]| [f64::min(f, from), f64::max(t, to)]));
-    }
-
-    fn finish(self, across: usize) -> Option<Band> {
-        let [Some(first), Some(second)] = self.halves else { return None };
-        if self.broken {
-            return None;
-        }
-        let lit_above = self.sign > 0.0;
-        let undecided = [first, second].map(|[from, to]| {
-            let (from, to) = (f64::max(from, -1.0), f64::min(to, 1.0));
-            if lit_above { [from, to] } else { [-to, -from] }
-        });
-        Some(Band { across, lit_above, undecided })
-    }
 }
 
 #[cfg(test)]

@@ -112,6 +112,11 @@ impl Places {
         [f64::from(i) - self.center[0], f64::from(j) - self.center[1]]
     }
 
+    /// At least the magnitudes of all offsets.
+    pub(super) fn half(&self) -> [f64; 2] {
+        self.half
+    }
+
     /// What slopes by pixels are by symbols that run over the places from -1 to 1. Exact: a slope has 24 bits, half a width at most
     /// 28; over wider places all slopes are 0.
     pub(super) fn by_symbols(&self, [a, b]: [f64; 2]) -> [f64; 2] {
@@ -145,12 +150,6 @@ impl Places {
             if exact && slopes.iter().all(|s| s.is_finite()) { slopes.map(f64::from) } else { [0.0; 2] }
         })
     }
-}
-
-/// Slopes, and the same with their signs turned.
-pub(super) fn both_signs([x, y, z]: [[f64; 2]; 3]) -> [[f64; 2]; 6] {
-    let turned = |slope: [f64; 2]| slope.map(|s| -s);
-    [x, y, z, turned(x), turned(y), turned(z)]
 }
 
 /// A plane fits badly if its error is a quarter of the extent.

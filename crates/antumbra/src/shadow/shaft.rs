@@ -1,11 +1,10 @@
 //! Shafts: all hits of a tile of the screen as one linear function.
 use super::occluders::Receiver;
-use super::policy::{Places, both_signs, divide_light, rough, size};
-use crate::geom::{Box3, Rect, axes};
+use super::policy::{Places, divide_light, rough, size};
+use crate::geom::{Box3, Rect, axes, remainder};
 use crate::trace::Sign;
 use antumbra_interval::Interval;
 use antumbra_interval::affine::Affine;
-use antumbra_interval::round::{add_up, mul_up, sub_down, sub_up};
 
 /// A hit at its place on the screen.
 #[derive(Clone, Copy, Debug)]
@@ -59,30 +58,8 @@ impl Shaft {
         }
         let place = Places::of(hits.clone().map(|hit| hit.place));
         let slopes = place.slopes(hits.clone().map(|hit| (hit.place, hit.mid)));
-        // Of both bounds of the three coordinates, as lower bounds: of P_k - a_k di - b_k dj, and of the same with all signs turned. One
-        // formula for six numbers, for vectors. (None is NaN: points are in intervals, slopes and offsets are finite.)
-        let turned = both_signs(slopes);
-        let (mut row, mut by_row, mut least) = (None, [0.0; 6], [f64::INFINITY; 6]);
-        for hit in hits {
-            let [di, dj] = place.offset(hit.place);
-            // Hits come row by row.
-            if row != Some(hit.place[1]) {
-                row = Some(hit.place[1]);
-                (0..6).for_each(|k| by_row[k] = mul_up(turned[k][1], dj));
-            }
-            // A loop of its own: products branch where one vanishes.
-            let mut by_column = [0.0; 6];
-            (0..6).for_each(|k| by_column[k] = mul_up(turned[k][0], di));
-            for k in 0..6 {
-                let bound = sub_down(hit.ends[k], add_up(by_column[k], by_row[k]));
-                least[k] = if least[k] < bound { least[k] } else { bound };
-            }
-        }
-        let mut rest = [Interval::EMPTY; 3];
-        for (k, rest) in rest.iter_mut().enumerate() {
-            // Exact: a term is 0.
-            *rest = Interval::try_new(least[k], sub_up(0.0, least[k + 3]))?;
-        }
+        // The products of slopes and offsets are exact ([`Places::by_symbols`]).
+        let rest = remainder(slopes, place.half(), hits.map(|hit| (place.offset(hit.place), hit.ends)))?;
         let (mut extent, mut roughness) = (0.0_f64, 0.0_f64);
         let apex = axes(|k| {
             let [a, b] = place.by_symbols(slopes[k]);

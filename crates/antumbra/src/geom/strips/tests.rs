@@ -120,6 +120,46 @@ fn a_circle_converges_to_its_area() {
     assert_eq!(areas(&[nan], 1e-6, &mut Scratch::default()), Areas { lit: 0.0, open: 1.0, band: None });
 }
 
+/// Of curves that are not monotone across, convex and concave ones: strips are enclosed, and tightly where they are thin. The truth
+/// by roots of the quadratic on many lines.
+#[test]
+fn branches_are_enclosed_tightly() {
+    let mut r = Random(23);
+    let (mut turning, mut loose) = (0, 0);
+    for round in 0..4000 {
+        let mut p = r.paraboloid(0.3);
+        let bend = (0.6 + r.next().abs()).copysign(r.next());
+        (p.l[0], p.q[0]) = (0.5 * p.l[0], bend);
+        let e = [0.0, 1e-3, 0.05][round % 3];
+        let strip = Strip::number(round % 8, 8);
+        let (lit, open) = (branches::lit(&p, e, strip), branches::open(&p, e, strip));
+        // Length of the part of [-1, 1] in which p >= level on the line at y.
+        let length = |level: f64, y: f64| {
+            let [c, l] = Along::middle(&p, Strip { middle: strip.middle + strip.half * y, ..strip });
+            let d = l * l - 4.0 * bend * (c - level);
+            let inside = if d > 0.0 {
+                let [a, b] = [-1.0, 1.0].map(|s| (s * d.sqrt() - l) / (2.0 * bend));
+                (a.max(b).clamp(-1.0, 1.0) - a.min(b).clamp(-1.0, 1.0)).max(0.0)
+            } else {
+                0.0
+            };
+            if bend > 0.0 { 2.0 - inside } else { inside }
+        };
+        let mean = |level: f64| (0..64).map(|k| length(level, f64::from(2 * k + 1) / 64.0 - 1.0)).sum::<f64>() / 64.0;
+        let (lit_truth, open_truth) = (mean(e), mean(-e));
+        assert!(
+            lit <= lit_truth + 5e-3 && open >= open_truth - 5e-3,
+            "{p:?} {e} {strip:?}: {lit} {lit_truth}, {open} {open_truth}"
+        );
+        let both = length(e, 0.0);
+        if 0.2 < both && both < 1.8 {
+            turning += 1;
+            loose += usize::from(lit < lit_truth - 0.05 || open > open_truth + 0.05);
+        }
+    }
+    assert!(turning > 500 && 5 * loose < turning, "{loose} of {turning} are loose");
+}
+
 /// Places within a part are enclosed: against exact fractions.
 #[test]
 fn places_are_enclosed() {

@@ -190,17 +190,22 @@ impl<'a> Cell<'a> {
     /// With `A = (lo + hi)/2`, `B = (hi - lo)/2`: `t = A + B s` takes every value in between. Parallel sheets have a constant
     /// `B`: then t is affine and `P + t D` has degree 2, so nothing is lost.
     fn points(&self, slab: &Slab) -> [Quadratic; 3] {
-        let mean = (slab.lo.form(&self.symbols) + slab.hi.form(&self.symbols)).mul_f64(0.5);
-        let s = Affine::symbol(0);
         let apex = &self.fan.apex;
+        let s = Affine::symbol(0);
         if slab.lo.slopes == slab.hi.slopes {
-            let half = (Interval::point(slab.hi.k) - Interval::point(slab.lo.k)) * Interval::point(0.5);
-            let t = mean + s.mul_interval(half);
+            let t = if slab.lo.k == slab.hi.k {
+                slab.lo.form(&self.symbols)
+            } else {
+                let (lo, hi) = (Interval::point(slab.lo.k), Interval::point(slab.hi.k));
+                let [mean, half] = [lo + hi, hi - lo].map(|k| k * Interval::point(0.5));
+                slab.lo.tilt(&self.symbols).add_interval(mean) + s.mul_interval(half)
+            };
             // No from_fn here and below: its closures are not always inlined.
             let at = |k: usize| Quadratic::product_of(&t, &self.fan.direction[k]).add_interval(apex[k]);
             [at(0), at(1), at(2)]
         } else {
-            let half = (slab.hi.form(&self.symbols) - slab.lo.form(&self.symbols)).mul_f64(0.5);
+            let (lo, hi) = (slab.lo.form(&self.symbols), slab.hi.form(&self.symbols));
+            let (mean, half) = ((lo + hi).mul_f64(0.5), (hi - lo).mul_f64(0.5));
             let t = Quadratic::from(mean) + Quadratic::product_of(&half, &s);
             let at = |k: usize| (t * Quadratic::from(self.fan.direction[k])).add_interval(apex[k]);
             [at(0), at(1), at(2)]

@@ -1,7 +1,7 @@
 //! What the curves of a cell say about its parts, without another evaluation.
 use super::super::ledger::{Ledger, area};
 use super::{Claim, Rest, Says, policy};
-use crate::geom::strips::{Curve, places};
+use crate::geom::strips::{Curve, Leaning, places};
 use antumbra_interval::Interval;
 
 /// A cell that was looked at, and what its slabs say of it ([`Says::Curves`](super::Says::Curves)).
@@ -11,16 +11,20 @@ pub(super) struct Seen<'a> {
 }
 
 impl Seen<'_> {
-    /// Whether a part of the cell is lit all over, or hidden all over; `None` if neither is proved.
+    /// Whether a part of the cell is lit all over, or hidden all over; `None` if neither is proved. Only what the middle of the part speaks
+    /// for is asked: most parts are neither.
     fn settles(&self, part: [Interval; 2]) -> Option<bool> {
         let places = [0, 1].map(|axis| places(part[axis], self.part[axis]));
-        if self.curves.iter().any(|curve| curve.hides_over(places)) {
-            Some(false)
-        } else if self.curves.iter().all(|curve| curve.free_over(places)) {
-            Some(true)
-        } else {
-            None
+        let mut lit = true;
+        for curve in self.curves {
+            match curve.leaning(places) {
+                Leaning::Hiding if curve.hides_over(places) => return Some(false),
+                Leaning::Free if lit => lit = curve.free_over(places),
+                Leaning::Free => {}
+                _ => lit = false,
+            }
         }
+        lit.then_some(true)
     }
 
     /// A rectangle that holds what is undecided of a part of the cell; what lies beside it is booked. `None` if nothing is left.
