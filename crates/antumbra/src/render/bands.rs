@@ -40,7 +40,7 @@ impl Renderer {
     }
 
     /// Bytes that the pixels of a picture take while it is drawn, were all of them hits: the planes, the cost, the place of a hit, and a hit. Beside it
-    /// come up to 1.4 kB for each pixel that an edge crosses, and what is proportional to formulas and threads.
+    /// come up to 1.1 kB for each pixel that an edge crosses, and what is proportional to formulas and threads.
     #[must_use]
     pub fn bytes(width: usize, rows: usize, lights: usize) -> u64 {
         let hit = super::hits::Hits::BYTES_PER_PIXEL + size_of::<u32>();

@@ -1,4 +1,5 @@
 //! What is known of the picture so far: the frame, its hits, and the statistics.
+use super::by_proof::{BLOCK, Block};
 use super::coloring::Rgb;
 use super::crease::Grids;
 use super::frame::slide;
@@ -109,8 +110,22 @@ impl Book {
         }
     }
 
-    /// What was found of a pixel, and its colour as long as nothing more is known.
-    pub(super) fn put_pixel(&mut self, task: &Task, pixel: &Pixel, color: Rgb) {
+    /// What was found of the pixels of a block, and their colours as long as nothing more is known: row by row, so that what is side by side
+    /// in the planes is written, and the hits of neighbours are kept, one after the other.
+    pub(super) fn put_pixels(&mut self, task: &Task, (left, top, _): Block, found: &[Pixel], colors: &[Rgb]) {
+        const NONE: u16 = u16::MAX;
+        let (first, width) = (task.index(left, top), task.film.width);
+        let mut places = [NONE; BLOCK * BLOCK];
+        for (k, pixel) in (0_u16..).zip(found) {
+            let from_first = pixel.index - first;
+            places[from_first / width * BLOCK + from_first % width] = k;
+        }
+        for k in places.into_iter().filter(|k| *k != NONE).map(usize::from) {
+            self.put_pixel(task, &found[k], colors[k]);
+        }
+    }
+
+    fn put_pixel(&mut self, task: &Task, pixel: &Pixel, color: Rgb) {
         let (frame, stats, index) = (&mut self.frame, &mut self.stats, pixel.index);
         stats.pixel_beams += pixel.cost.beams;
         stats.primary_evaluations += pixel.cost.evaluations;
@@ -181,7 +196,7 @@ pub(super) struct InLight<'a> {
 impl InLight<'_> {
     /// What reaches a hit of a light.
     pub(super) fn put(&mut self, task: &Task, light: &Light) {
-        if self.hits.at(light.index).is_none() {
+        if !self.hits.is_hit(light.index) {
             return;
         }
         let (frame, stats, index) = (&mut *self.frame, &mut *self.stats, light.index);

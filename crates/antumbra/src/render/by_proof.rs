@@ -1,9 +1,9 @@
 //! Shadows by the certified method: blocks of hits that are divided until everything is proved or counted.
 use super::given::Given;
 use super::pixel::Light;
+use super::spare::Scratch;
 use super::task::Task;
-use crate::eval::Workspace;
-use crate::shadow::{self, Asking, Known, Placed, Receiver, Shaft, Tile, look, visibles};
+use crate::shadow::{Asking, Known, Placed, Receiver, Shaft, Tile, look, visibles};
 use crate::trace::Cost;
 use smallvec::SmallVec;
 use std::ops::Range;
@@ -73,15 +73,16 @@ impl Hits {
 
 /// Shadows of the hits of the block at `(column, row)`; `receiver_of` gives the proved hit of a pixel, if it has one. Brackets that are
 /// given, and narrow enough, are not looked for.
-pub(super) fn shadows<'a>(
+pub(super) fn shadows(
     task: &Task,
     column: usize,
     row: usize,
-    receiver_of: &(dyn Fn(usize) -> Option<&'a Receiver> + 'a),
+    receiver_of: &dyn Fn(usize) -> Option<Receiver>,
     given: Option<&Given>,
+    Scratch { work, shadows: scratch, .. }: &mut Scratch,
 ) -> Vec<Light> {
     let surfaces = task.surfaces();
-    let (mut work, mut scratch) = (Workspace::default(), shadow::Scratch::default());
+    scratch.begin();
     let mut out = Vec::new();
     let known = |light: usize, index: usize| given.and_then(|g| g.light(light, index));
     let narrow = |[lo, hi]: &[f64; 2]| hi - lo <= task.tolerance.width;
@@ -94,10 +95,10 @@ pub(super) fn shadows<'a>(
     }
     let mut hits = Hits::default();
     let proved = |index| Some((index, receiver_of(index)?));
-    let proved: Vec<(usize, &Receiver)> = indices(task, (column, row, BLOCK)).filter_map(proved).collect();
-    let placed = |&(index, receiver): &(usize, &Receiver)| {
+    let proved: Vec<(usize, Receiver)> = indices(task, (column, row, BLOCK)).filter_map(proved).collect();
+    let placed = |&(index, receiver): &(usize, Receiver)| {
         let (column, row) = task.place(index);
-        Placed::new([column as u32, row as u32], *receiver)
+        Placed::new([column as u32, row as u32], receiver)
     };
     hits.placed.extend(proved.iter().map(placed));
     hits.pixels.extend(proved.iter().map(|(index, _)| index));
@@ -125,7 +126,7 @@ pub(super) fn shadows<'a>(
             }
         }
         let mut found = Vec::with_capacity(tiles.len());
-        look(&surfaces, &tiles, &mut scratch, &mut work, |known, cost| found.push((known, cost)));
+        look(&surfaces, &tiles, scratch, work, |known, cost| found.push((known, cost)));
         for (place, (sees, cost)) in places.into_iter().zip(found) {
             groups[place].sees = Rc::new(sees);
             groups[place].owed += cost;
@@ -159,7 +160,7 @@ pub(super) fn shadows<'a>(
             }
         }
     }
-    let found = visibles(&surfaces, &asking, task.tolerance, &mut scratch, &mut work);
+    let found = visibles(&surfaces, &asking, task.tolerance, scratch, work);
     for (place, (bracket, cost)) in places.into_iter().zip(found) {
         let out = &mut out[place];
         // Both brackets hold, so they meet.
@@ -168,5 +169,7 @@ pub(super) fn shadows<'a>(
         out.reason = bracket.reason.filter(|_| !narrow(&[out.lo, out.hi]));
         (out.first_occluded, out.sub) = (!bracket.first_free, cost);
     }
+    // Only that of the other passes is told.
+    work.take_occupancy();
     out
 }

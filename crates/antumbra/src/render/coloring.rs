@@ -10,6 +10,7 @@ use super::shade::{self, Lamp, Point};
 use super::task::Task;
 use super::{Frame, LightPlanes, Method, Renderer};
 use rayon::prelude::*;
+use smallvec::SmallVec;
 use std::ops::Range;
 
 /// A colour, linear, Rec. 709 primaries.
@@ -17,6 +18,9 @@ pub(super) type Rgb = [f32; 3];
 
 /// Of a pixel that waits for its colour.
 pub(super) const BLACK: Rgb = [0.0; 3];
+
+/// What a row of pixels of a block shows, and those beside it.
+type Seeing<'a> = SmallVec<[Option<&'a Seen>; 36]>;
 
 /// How strongly a pixel shows something that may be there and that no ray of its grid meets.
 const THIN_WEIGHT: f32 = 0.6;
@@ -50,7 +54,7 @@ impl Renderer {
             let frame = &book.frame;
             let unlit = |index: usize| frame.lights.iter().all(|l| l.is_untold(index));
             let color = |index: usize| {
-                let hit = book.hits.at(index).filter(|hit| awaits_light(task, hit.proved))?;
+                let hit = book.hits.at(index).filter(|hit| awaits_light(task, hit.proved()))?;
                 let missing = frame.rgb[index] == BLACK && unlit(index);
                 missing.then(|| (index, book.color(task, index, Some(hit), |_| None)))
             };
@@ -91,22 +95,23 @@ pub(super) fn first_color(task: &Task, pixel: &Pixel, late: bool) -> Rgb {
 pub(super) fn lit_colors(task: &Task, hits: &Hits, block: Block, found: &[Light]) -> Vec<(usize, Rgb)> {
     let (left, top, side) = block;
     let (across, down) = (side.min(task.film.width - left), side.min(task.window.held().end - top));
-    // For each pixel, row by row, and each light the middle of the bracket.
+    // For each pixel, row by row, and each light the middle of the bracket; no number where nothing was found.
     let lights = task.lights.len();
-    let mut visible = vec![None; lights * across * down];
+    let mut visible = vec![f64::NAN; lights * across * down];
     for light in found {
         let (column, row) = task.place(light.index);
-        visible[((row - top) * across + column - left) * lights + light.light] = Some(0.5 * (light.lo + light.hi));
+        visible[((row - top) * across + column - left) * lights + light.light] = 0.5 * (light.lo + light.hi);
     }
     let mut colors = Vec::with_capacity(found.len() / lights.max(1));
     for (k, visible) in visible.chunks_exact(lights.max(1)).enumerate() {
+        if visible.iter().all(|visible| visible.is_nan()) {
+            continue;
+        }
         let place = (left + k % across, top + k / across);
         let index = task.index(place.0, place.1);
-        if visible.iter().any(Option::is_some)
-            && let Some(hit) = hits.at(index)
-        {
+        if let Some(hit) = hits.at(index) {
             // A bracket of which nothing was told is all of [0, 1].
-            let visible = |light: usize| Some(visible[light].unwrap_or(0.5));
+            let visible = |light: usize| Some(if visible[light].is_nan() { 0.5 } else { visible[light] });
             colors.push((index, color(task, place, Some(hit), false, visible)));
         }
     }
@@ -124,8 +129,7 @@ fn color(
 ) -> Rgb {
     let backdrop = shade::backdrop(&task.scene.backdrop, &task.film, column as f64 + 0.5, row as f64 + 0.5);
     let Some(hit) = hit else { return backdrop.map(|c| c as f32) };
-    let Seen { point: position, normal, color, object, .. } = *hit;
-    let object = object as usize;
+    let (position, normal, color, object) = (hit.point, hit.normal, hit.color(), hit.object());
     let (finish, floor) = (task.objects[object].finish, Some(object) == task.floor_index());
     let point = Point { position, normal, color, finish, floor, touching };
     let camera = [task.film.camera.eye, task.scene.view.target];
@@ -143,44 +147,49 @@ impl Book {
         hit: Option<&Seen>,
         visible: impl Fn(usize) -> Option<f64>,
     ) -> Rgb {
-        let unproved = hit.is_some_and(|hit| !hit.proved);
+        let unproved = hit.is_some_and(|hit| !hit.proved());
         let touching = task.method == Method::Certified && unproved && !self.at_an_edge(task, index);
         color(task, task.place(index), hit, touching, visible)
     }
 
-    /// Of a block of pixels those that show an edge within what they meet, and have no grid of rays yet. Whether two neighbours are
-    /// [`apart`](crease::apart) is asked once.
+    /// Of a block of pixels those that show an edge within what they meet, and have no grid of rays yet. Each hit is looked up once for its
+    /// row and once for the one above, and whether two neighbours are [`apart`](crease::apart) is asked once.
     pub(super) fn creases(&self, task: &Task, (left, top, side): Block) -> Vec<usize> {
         let (width, held) = (task.film.width, task.window.held());
         let (right, bottom) = ((left + side).min(width), (top + side).min(held.end));
+        // With those on both sides.
+        let columns = left.saturating_sub(1)..(right + 1).min(width);
+        let row_of = |row: Option<usize>| -> Seeing<'_> {
+            let at = |row: usize| task.index(columns.start, row)..task.index(columns.end - 1, row) + 1;
+            let row = row.filter(|row| held.contains(row)).map_or(0..0, at);
+            let mut seen: Seeing<'_> = row.map(|at| self.hits.at(at)).collect();
+            seen.resize(columns.len(), None);
+            seen
+        };
+        let apart = |a: Option<&Seen>, b: Option<&Seen>| a.zip(b).is_some_and(|(a, b)| crease::apart(a, b));
         let mut found = Vec::new();
+        let (above, mut here) = (row_of(top.checked_sub(1)), row_of(Some(top)));
         // Of the row above and this one: who is apart from whom.
-        let mut from_above = vec![false; right - left];
-        if top > held.start {
-            for (column, apart) in (left..right).zip(&mut from_above) {
-                let at = task.index(column, top);
-                *apart = self.apart(at, at - width);
-            }
-        }
+        let mut from_above: SmallVec<[bool; 36]> = above.iter().zip(&here).map(|(a, b)| apart(*a, *b)).collect();
+        let first = left - columns.start;
         for row in top..bottom {
-            let mut from_left = left > 0 && self.apart(task.index(left, row), task.index(left, row) - 1);
-            for (column, from_above) in (left..right).zip(&mut from_above) {
-                let at = task.index(column, row);
-                let to_right = column + 1 < width && self.apart(at, at + 1);
-                let below = row + 1 < held.end && self.apart(at, at + width);
-                let crease = from_left || to_right || *from_above || below;
-                if crease && self.hits.at(at).is_some_and(|hit| hit.proved) && !self.edges.contains_key(&at) {
-                    found.push(at);
+            let next = row_of(Some(row + 1));
+            let mut from_left = first > 0 && apart(here[0], here[1]);
+            for k in first..first + (right - left) {
+                let to_right = here.get(k + 1).is_some_and(|right| apart(here[k], *right));
+                let below = apart(here[k], next[k]);
+                let crease = from_left || to_right || from_above[k] || below;
+                if crease && here[k].is_some_and(Seen::proved) {
+                    let at = task.index(columns.start + k, row);
+                    if !self.edges.contains_key(&at) {
+                        found.push(at);
+                    }
                 }
-                (from_left, *from_above) = (to_right, below);
+                (from_left, from_above[k]) = (to_right, below);
             }
+            here = next;
         }
         found
-    }
-
-    /// Whether an edge runs between what two neighbours show.
-    fn apart(&self, a: usize, b: usize) -> bool {
-        self.hits.at(a).zip(self.hits.at(b)).is_some_and(|(a, b)| crease::apart(a, b))
     }
 
     /// The colours of pixels that depend on their neighbours, when those are known: of what may be a surface, of hits with open brackets, and
@@ -195,7 +204,7 @@ impl Book {
                 return None;
             }
             let hit = this.hits.at(index)?;
-            if !hit.proved {
+            if !hit.proved() {
                 Some((index, this.color(task, index, Some(hit), |_| None)))
             } else if frame.lights.iter().any(|light| light.is_open(index, tolerance)) {
                 Some((index, this.color(task, index, Some(hit), |light| Some(this.likely(task, light, index)))))
@@ -238,8 +247,8 @@ impl Book {
         }
         let mut color = sum.map(|s| s / edge.rays().len() as f32);
         if let Some(thin) = &edge.thin
-            && !self.is_near(task, index, thin.object)
-            && !edge.seen().iter().any(|hit| hit.object == thin.object)
+            && !self.is_near(task, index, thin.object())
+            && !edge.seen().iter().any(|hit| hit.object() == thin.object())
         {
             let veil = self.color(task, index, Some(thin), |_| None);
             (0..3).for_each(|c| color[c] += THIN_WEIGHT * (veil[c] - color[c]));
@@ -256,8 +265,8 @@ impl Book {
     }
 
     /// Whether that surface is proved in the pixel or next to it.
-    fn is_near(&self, task: &Task, index: usize, object: u32) -> bool {
-        neighbours(task, index).any(|at| self.hits.at(at).is_some_and(|hit| hit.object == object && hit.proved))
+    fn is_near(&self, task: &Task, index: usize, object: usize) -> bool {
+        neighbours(task, index).any(|at| self.hits.at(at).is_some_and(|hit| hit.object() == object && hit.proved()))
     }
 
     /// Whether a surface is proved in the pixel or next to it: what is undecided there is how far its edge reaches.
@@ -270,7 +279,7 @@ impl Book {
         let mut best = (f64::INFINITY, None);
         for at in neighbours(task, index) {
             if let Some(other) = self.hits.at(at)
-                && other.object == hit.object
+                && other.object() == hit.object()
             {
                 let distance = (other.point - hit.point).length();
                 if distance < best.0 {

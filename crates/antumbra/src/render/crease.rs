@@ -19,7 +19,7 @@ const STEP: f64 = 0.35;
 pub(super) fn apart(a: &Seen, b: &Seen) -> bool {
     let between = b.point - a.point;
     let off = between.dot(a.normal).abs().max(between.dot(b.normal).abs());
-    a.object != b.object || a.normal.dot(b.normal) < BEND || off > STEP * between.length()
+    a.object() != b.object() || a.normal.dot(b.normal) < BEND || off > STEP * between.length()
 }
 
 /// The grids of rays of some pixels, what they cost, and how full their batches were.

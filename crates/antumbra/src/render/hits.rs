@@ -1,30 +1,70 @@
 //! The hits of a picture, as it keeps them. A pixel that shows nothing costs four bytes, not those of a hit; colours, which look at
-//! neighbours, find what they need in few bytes, apart from what shadows start with.
+//! neighbours, find what they need in few bytes, apart from where shadows start.
 use super::pixel::{Edge, Hit};
-use crate::geom::Vec3;
+use crate::geom::{Box3, Vec3};
 use crate::shadow::Receiver;
+use crate::trace::Sign;
 use serde::{Deserialize, Serialize};
 
-/// A hit as colours see it: without its parameter, which is in the planes, and its proof.
+/// A hit as colours see it: without its parameter, which is in the planes, and its proof. A line of a cache.
 #[derive(Clone, Copy, Debug, Serialize, Deserialize)]
 pub(super) struct Seen {
     /// About where it is.
     pub(super) point: Vec3,
     /// Unit normal, turned to the viewer.
     pub(super) normal: Vec3,
-    /// Colour of the surface there, linear Rec. 709. Not certified.
-    pub(super) color: [f64; 3],
-    /// Index of the surface.
-    pub(super) object: u32,
-    /// Whether it is a proved hit.
-    pub(super) proved: bool,
+    /// Colour of the surface there, linear Rec. 709, rounded once more. Not certified.
+    color: [f32; 3],
+    /// The index of the surface, behind two bits: [`PROVED`], and then [`NEGATIVE`].
+    surface: u32,
 }
+
+/// It is a proved hit.
+const PROVED: u32 = 1;
+/// The sign of the surface's function on the viewer's side of it.
+const NEGATIVE: u32 = 2;
+/// Bits for what is proved.
+const BITS: u32 = 2;
 
 impl From<&Hit> for Seen {
     fn from(hit: &Hit) -> Self {
-        let Hit { point, normal, color, object, receiver, .. } = *hit;
-        let object = u32::try_from(object).expect("fewer surfaces than that");
-        Self { point, normal, color, object, proved: receiver.is_some() }
+        let side = hit.receiver.map(|receiver| receiver.side);
+        Self::new(hit.point, hit.normal, hit.color, hit.object, side)
+    }
+}
+
+impl Seen {
+    /// `side`: of a proved hit, the sign of the surface's function on the viewer's side.
+    pub(super) fn new(point: Vec3, normal: Vec3, color: [f64; 3], object: usize, side: Option<Sign>) -> Self {
+        let object = u32::try_from(object).ok().filter(|object| *object < 1 << (u32::BITS - BITS));
+        let proved = match side {
+            None => 0,
+            Some(Sign::Positive) => PROVED,
+            Some(Sign::Negative) => PROVED | NEGATIVE,
+        };
+        let surface = object.expect("fewer surfaces than that") << BITS | proved;
+        Self { point, normal, color: color.map(|c| c as f32), surface }
+    }
+
+    /// Colour of the surface there.
+    pub(super) fn color(&self) -> [f64; 3] {
+        self.color.map(f64::from)
+    }
+
+    /// Index of the surface.
+    pub(super) fn object(&self) -> usize {
+        (self.surface >> BITS) as usize
+    }
+
+    /// Whether it is a proved hit.
+    pub(super) fn proved(&self) -> bool {
+        self.surface & PROVED > 0
+    }
+
+    /// Of a proved hit, the sign of the surface's function on the viewer's side.
+    fn side(&self) -> Option<Sign> {
+        let sign = if self.surface & NEGATIVE > 0 { Sign::Negative } else { Sign::Positive };
+        self.proved().then_some(sign)
     }
 }
 
@@ -110,16 +150,16 @@ pub(super) struct Hits {
     /// For each pixel 0, or the number of its hit, from 1 on: 32 bits are enough, pictures have fewer pixels.
     places: Vec<u32>,
     seen: Pieces<Seen>,
-    /// Where shadows start, of the same hits.
-    receivers: Pieces<Option<Receiver>>,
+    /// Enclosures of the proved ones of the same hits, where shadows start.
+    starts: Pieces<Box3>,
 }
 
 impl Hits {
     /// Most bytes of a pixel.
-    pub(super) const BYTES_PER_PIXEL: usize = size_of::<u32>() + size_of::<Seen>() + size_of::<Option<Receiver>>();
+    pub(super) const BYTES_PER_PIXEL: usize = size_of::<u32>() + size_of::<Seen>() + size_of::<Box3>();
 
     pub(super) fn none(pixels: usize) -> Self {
-        Self { places: vec![0; pixels], seen: Pieces(Vec::new()), receivers: Pieces(Vec::new()) }
+        Self { places: vec![0; pixels], seen: Pieces(Vec::new()), starts: Pieces(Vec::new()) }
     }
 
     /// Pixels.
@@ -138,8 +178,13 @@ impl Hits {
     /// Whether every number is that of a hit: what is read from a file may be anything.
     pub(super) fn holds(&self) -> bool {
         let hits = self.seen.len();
-        let pieces = self.seen.holds() && self.receivers.holds() && hits == self.receivers.len();
+        let pieces = self.seen.holds() && self.starts.holds() && hits == self.starts.len();
         pieces && self.places.iter().all(|place| *place as usize <= hits)
+    }
+
+    /// Whether a pixel has a hit.
+    pub(super) fn is_hit(&self, index: usize) -> bool {
+        self.places[index] > 0
     }
 
     pub(super) fn at(&self, index: usize) -> Option<&Seen> {
@@ -147,16 +192,16 @@ impl Hits {
     }
 
     /// The proved hit of a pixel, if it has one.
-    pub(super) fn receiver(&self, index: usize) -> Option<&Receiver> {
-        self.receivers.get(self.places[index].checked_sub(1)? as usize)?.as_ref()
+    pub(super) fn receiver(&self, index: usize) -> Option<Receiver> {
+        let seen = self.at(index)?;
+        let point = *self.starts.get(self.places[index].checked_sub(1)? as usize)?;
+        Some(Receiver { point, surface: seen.object(), side: seen.side()? })
     }
 
     /// The hit of a pixel, in the place of what it had.
     pub(super) fn put(&mut self, index: usize, hit: Option<&Hit>) {
         if let Some(hit) = hit {
-            let place = self.place(index);
-            self.seen.put(place, hit.into());
-            self.receivers.put(place, hit.receiver);
+            self.keep(index, hit.into(), hit.receiver.map(|receiver| receiver.point));
         } else {
             self.places[index] = 0;
         }
@@ -165,16 +210,17 @@ impl Hits {
     /// What other hits keep of a pixel there, in the place of what it had.
     pub(super) fn put_from(&mut self, index: usize, others: &Self, there: usize) {
         if let Some(seen) = others.at(there) {
-            self.keep(index, *seen, others.receiver(there).copied());
+            self.keep(index, *seen, others.receiver(there).map(|receiver| receiver.point));
         } else {
             self.places[index] = 0;
         }
     }
 
-    pub(super) fn keep(&mut self, index: usize, seen: Seen, receiver: Option<Receiver>) {
+    /// A hit, and where it is if it is proved.
+    pub(super) fn keep(&mut self, index: usize, seen: Seen, start: Option<Box3>) {
         let place = self.place(index);
         self.seen.put(place, seen);
-        self.receivers.put(place, receiver);
+        self.starts.put(place, start.unwrap_or_else(|| seen.point.to_box()));
     }
 
     /// Where the hit of a pixel is put: where its old one is, or behind all others.
@@ -190,15 +236,10 @@ impl Hits {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use antumbra_interval::Interval;
 
     fn seen(k: usize) -> Seen {
-        Seen {
-            point: Vec3::new(k as f64, 0.0, 0.0),
-            normal: Vec3::default(),
-            color: [0.5; 3],
-            object: 0,
-            proved: false,
-        }
+        Seen::new(Vec3::new(k as f64, 0.0, 0.0), Vec3::default(), [0.5; 3], 0, None)
     }
 
     #[test]
@@ -220,5 +261,31 @@ mod tests {
         assert!((pixels - 100..pixels).all(|k| hits.at(k).is_none()));
         hits.seen.0[0].pop();
         assert!(!hits.holds(), "a piece that is not full");
+    }
+
+    #[test]
+    fn proved_hits_come_back_and_others_do_not() {
+        let hit = |x: f64, side: Option<Sign>| {
+            let (point, normal, color) = (Vec3::new(x, 0.0, 0.0), Vec3::new(0.0, 0.0, 1.0), [0.1, 0.2, 0.3]);
+            let around = Box3(point.0.map(|c| Interval::new(c - 0.5, c + 0.25)));
+            let receiver = side.map(|side| Receiver { point: around, surface: 7, side });
+            Hit { t: Interval::ONE, point, normal, color, object: 7, floor: false, receiver }
+        };
+        let all = [hit(1.0, Some(Sign::Negative)), hit(5.0, Some(Sign::Positive)), hit(2.0, None)];
+        let mut hits = Hits::none(9);
+        (3..).zip(&all).for_each(|(index, hit)| hits.put(index, Some(hit)));
+        let check = |hits: &Hits, from: usize| {
+            for (index, hit) in (from..).zip(&all) {
+                let seen = hits.at(index).unwrap();
+                assert_eq!(hits.receiver(index), hit.receiver);
+                assert_eq!((seen.point, seen.normal, seen.object()), (hit.point, hit.normal, 7));
+                assert!((0..3).all(|c| (seen.color()[c] - hit.color[c]).abs() < 1e-7));
+                assert_eq!(seen.proved(), hit.receiver.is_some());
+            }
+            assert!(hits.receiver(from + 3).is_none() && hits.holds());
+        };
+        check(&hits, 3);
+        hits.slide(2, 9);
+        check(&hits, 1);
     }
 }

@@ -28,8 +28,8 @@ pub(super) fn likely(hits: &Hits, frame: &Frame, light: usize, index: usize, tol
         for (x, y) in rows.flat_map(|y| columns.clone().map(move |x| (x, y))) {
             let at = y * frame.width + x;
             let known = |other: &&super::hits::Seen| {
-                other.object == hit.object
-                    && other.proved
+                other.object() == hit.object()
+                    && other.proved()
                     && other.normal.dot(hit.normal) > SMOOTH
                     && !planes.is_open(at, tolerance)
             };
@@ -51,18 +51,24 @@ mod tests {
     use super::*;
     use crate::geom::Vec3;
     use crate::render::hits::Seen;
+    use crate::trace::Sign;
 
     const TOLERANCE: f64 = 0.01;
+
+    fn hit(object: usize, normal: Vec3, side: Option<Sign>) -> Seen {
+        Seen::new(Vec3::default(), normal, [0.5; 3], object, side)
+    }
+
+    const UP: Vec3 = Vec3([0.0, 0.0, 1.0]);
+    const PROVED: Option<Sign> = Some(Sign::Positive);
 
     /// A row of hits on one flat surface with these brackets.
     fn row(brackets: &[[f64; 2]]) -> (Hits, Frame) {
         let mut frame = Frame::new(brackets.len(), 1, 1).unwrap();
         let mut hits = Hits::none(brackets.len());
-        let hit =
-            Seen { point: Vec3::default(), normal: Vec3::new(0.0, 0.0, 1.0), color: [0.5; 3], object: 0, proved: true };
         for (k, [lo, hi]) in brackets.iter().enumerate() {
             (frame.lights[0].visible_lo[k], frame.lights[0].visible_hi[k]) = (*lo, *hi);
-            hits.keep(k, hit, None);
+            hits.keep(k, hit(0, UP, PROVED), None);
         }
         (hits, frame)
     }
@@ -86,11 +92,10 @@ mod tests {
     #[test]
     fn other_surfaces_and_bends_say_nothing() {
         let (mut hits, frame) = row(&[[1.0, 1.0], [0.0, 1.0], [1.0, 1.0], [0.0, 1.0]]);
-        let hit = *hits.at(0).unwrap();
-        hits.keep(0, Seen { object: 1, ..hit }, None);
-        hits.keep(2, Seen { normal: Vec3::new(1.0, 0.0, 0.0), ..hit }, None);
+        hits.keep(0, hit(1, UP, PROVED), None);
+        hits.keep(2, hit(0, Vec3::new(1.0, 0.0, 0.0), PROVED), None);
         assert_eq!(likely(&hits, &frame, 0, 1, TOLERANCE), 0.5);
-        hits.keep(2, Seen { proved: false, ..hit }, None);
+        hits.keep(2, hit(0, UP, None), None);
         assert_eq!(likely(&hits, &frame, 0, 1, TOLERANCE), 0.5, "what is not proved to be a hit has no light");
     }
 }

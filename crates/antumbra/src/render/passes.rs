@@ -91,13 +91,11 @@ impl Renderer {
                 _ => (by_paper::primary(task, grids, pixels, task.method.uses_rays()), Occupancy::default()),
             };
             let colors: Vec<_> = found.iter().map(|pixel| first_color(task, pixel, late)).collect();
-            (found, colors, occupancy)
+            (block, found, colors, occupancy)
         };
-        batch.each(crew, spare, work, |(found, colors, occupancy)| {
+        batch.each(crew, spare, work, |(block, found, colors, occupancy)| {
             book.put_occupancy(&occupancy);
-            for (pixel, color) in found.iter().zip(colors) {
-                book.put_pixel(task, pixel, color);
-            }
+            book.put_pixels(task, block, &found, &colors);
             for pixel in found.iter().filter(|pixel| is_doubtful(task, pixel)) {
                 book.frame.rgb[pixel.index] = book.color(task, pixel.index, book.hits.at(pixel.index), |_| None);
             }
@@ -109,12 +107,12 @@ impl Renderer {
         let Self { task, book, crew, spare, given, traced, grids, .. } = self;
         let (task, given, traced, grids) = (&*task, given.as_ref(), traced.as_ref(), &*grids);
         let (hits, mut in_light) = book.in_light();
-        let work = |block: Block, _: &mut Scratch| {
+        let work = |block: Block, scratch: &mut Scratch| {
             let points = || by_proof::indices(task, block).filter_map(|index| Some((index, hits.at(index)?.point)));
             let found = match (task.method, traced) {
                 (Method::Certified, _) => {
-                    let receiver = move |index| hits.receiver(index);
-                    by_proof::shadows(task, block.0, block.1, &receiver, given)
+                    let receiver = |index| hits.receiver(index);
+                    by_proof::shadows(task, block.0, block.1, &receiver, given, scratch)
                 }
                 (_, Some(traced)) => by_paper::traced_shadows(task, traced, points().map(|(index, _)| index)),
                 (Method::Paper(method), None) => by_paper::shadows(task, grids, method, points()),

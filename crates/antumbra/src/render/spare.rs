@@ -1,6 +1,7 @@
 //! Memory that threads use again: from tile to tile nothing is allocated but results. What is in it never matters.
 use super::task::HitScratch;
 use crate::eval::Workspace;
+use crate::shadow;
 use crate::trace::{self, Brackets, Frusta};
 use std::sync::Mutex;
 
@@ -12,6 +13,7 @@ pub(super) struct Scratch {
     pub(super) rays: trace::Scratch,
     pub(super) brackets: Brackets,
     pub(super) hits: HitScratch,
+    pub(super) shadows: shadow::Scratch,
 }
 
 /// Scratch memory that no thread has at the moment.

@@ -1,6 +1,6 @@
 //! Where is the surface, and from where does one look at it?
 use super::{Light, Object, Scene, View};
-use crate::eval::{Inclusion, Sieve, Workspace, centred_range};
+use crate::eval::{Inclusion, Sieve, Workspace};
 use crate::geom::{Box3, Clip, Rect, Vec3};
 use antumbra_interval::Interval;
 
@@ -38,6 +38,8 @@ impl Extent {
 const CELLS: usize = 16;
 /// Operations that finding the extent, and proving a region, may take each: about a second or two.
 const WORK: usize = 400_000_000;
+/// Cells that are asked for together when a region is proved.
+const TOGETHER: usize = 64;
 /// Half the side of the cube that is searched at first.
 const FARTHEST: f64 = (1 << 20) as f64;
 /// Half sizes of a clip box by which its neighbourhood reaches further.
@@ -109,31 +111,32 @@ pub(super) fn region(f: &dyn Inclusion, clip: &Clip) -> Clip {
         Extent::Bounded(b) => (Box3::cube(FARTHEST), b),
         Extent::Open(_) => (wide, wide),
     };
-    let mut cells = vec![start];
+    let (mut cells, mut asked, mut sieve) = (vec![start], Vec::with_capacity(TOGETHER), Sieve::default());
     let mut budget = (WORK / (5 * f.operations())).min(60_000);
-    while let Some(cell) = cells.pop() {
-        if cell.intersection(kept) == Some(cell) {
-            continue;
-        }
-        if budget == 0 {
+    while !cells.is_empty() {
+        // How many cells there are in the end, and with it the answer, does not depend on their order.
+        asked.extend(cells.drain(cells.len().saturating_sub(TOGETHER)..).filter(|c| c.intersection(kept) != Some(*c)));
+        if budget < asked.len() {
             return *clip;
         }
-        budget -= 1;
-        if !f.range(&cell, &mut work).possibly_zero() || !centred_range(f, &cell, &mut work).possibly_zero() {
-            continue;
-        }
-        // Cut along the longest edge, at the border of the kept box if it runs through the cell.
-        let axis = (1..3).fold(0, |a, b| if cell[b].width() > cell[a].width() { b } else { a });
-        let border = (0..3).find_map(|k| {
-            [kept[k].lo(), kept[k].hi()].into_iter().find(|x| cell[k].lo() < *x && *x < cell[k].hi()).map(|x| (k, x))
-        });
-        let (axis, at) = border.unwrap_or((axis, cell[axis].mid()));
-        let (mut low, mut high) = (cell, cell);
-        low.0[axis] = Interval::new(cell[axis].lo(), at);
-        high.0[axis] = Interval::new(at, cell[axis].hi());
-        cells.extend([low, high]);
+        budget -= asked.len();
+        sieve.retain(f, &mut asked, &mut work);
+        cells.extend(asked.drain(..).flat_map(|cell| halves(&cell, &kept)));
     }
     Clip::Box(region)
+}
+
+/// A cell in two, cut along its longest edge, or at the border of the kept box if that runs through it.
+fn halves(cell: &Box3, kept: &Box3) -> [Box3; 2] {
+    let axis = (1..3).fold(0, |a, b| if cell[b].width() > cell[a].width() { b } else { a });
+    let border = (0..3).find_map(|k| {
+        [kept[k].lo(), kept[k].hi()].into_iter().find(|x| cell[k].lo() < *x && *x < cell[k].hi()).map(|x| (k, x))
+    });
+    let (axis, at) = border.unwrap_or((axis, cell[axis].mid()));
+    let (mut low, mut high) = (*cell, *cell);
+    low.0[axis] = Interval::new(cell[axis].lo(), at);
+    high.0[axis] = Interval::new(at, cell[axis].hi());
+    [low, high]
 }
 
 /// Hull of the cells of `region` in which f may be zero.

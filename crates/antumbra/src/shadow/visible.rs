@@ -67,7 +67,7 @@ pub struct Tolerance {
     pub penumbra: Penumbra,
 }
 
-/// Scratch memory of one thread. What hits have taught is kept in it too: begin each independent set of hits with a new one.
+/// Scratch memory of one thread. What hits have taught is kept in it too: [`begin`](Self::begin) each independent set of hits with it, or with a new one.
 #[derive(Debug, Default)]
 pub struct Scratch {
     pub(super) shafts: super::shafts::Scratch,
@@ -88,6 +88,11 @@ struct Search {
 }
 
 impl Scratch {
+    /// Ready for another set of hits: what others have taught is forgotten, the memory stays.
+    pub fn begin(&mut self) {
+        self.learned = second::Learned::default();
+    }
+
     /// From now on, what the second-order method claims is written down.
     pub fn record_claims(&mut self) {
         self.claims = Some(Vec::new());
