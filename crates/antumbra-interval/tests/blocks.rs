@@ -131,6 +131,90 @@ fn intervals() {
     agree(ordinary, 2, 1000);
 }
 
+/// All pairs of intervals with ends of every kind, also such as no operator makes. All lanes hold the same one, so that vectors take the
+/// short ways that are for vectors of one kind.
+#[test]
+fn intervals_with_all_ends() {
+    let sizes = [0.0, f64::from_bits(1), 1e-200, 1e-150, 0.75, 3.0, 1e160, f64::MAX, f64::INFINITY];
+    let ends = sizes.iter().flat_map(|&x| [-x, x]).chain([f64::NAN]).collect::<Vec<_>>();
+    let pairs = ends.iter().flat_map(|&lo| ends.iter().map(move |&hi| [lo, hi]));
+    // The empty one is [+inf, -inf]; of others no lower end is +inf, no upper one -inf.
+    let inner =
+        |lo: f64, hi: f64| lo != f64::INFINITY && hi != f64::NEG_INFINITY && (lo <= hi || lo.is_nan() || hi.is_nan());
+    let some = pairs.filter(|[lo, hi]| inner(*lo, *hi)).map(|ends| Interval::from_components(|i| ends[i]));
+    let intervals = some.chain([Interval::EMPTY]).collect::<Vec<_>>();
+    let mut block = Block::<Interval>::default();
+    block.prepare(3, 1);
+    for level in Level::all() {
+        for &a in &intervals {
+            for &b in &intervals {
+                for op in Arithmetic::ALL {
+                    // Of a uniform slot and of one that is not.
+                    block.fill(0, a);
+                    block.load(1, 1, |_| b);
+                    block.arithmetic(level, op, 2, 0, 1);
+                    let (got, wanted) = (block.get(2, 0), Interval::arithmetic(op, a, b));
+                    let same = (0..2).all(|i| {
+                        let (x, y) = (got.component(i), wanted.component(i));
+                        x.to_bits() == y.to_bits() || (x.is_nan() && y.is_nan())
+                    });
+                    assert!(same, "{level:?} {op:?} {a:?} {b:?}: {got:?} instead of {wanted:?}");
+                }
+            }
+        }
+    }
+}
+
+/// A uniform slot is as good as one that was written lane by lane, also where it receives a result or one lane of its own.
+#[test]
+fn uniform_slots() {
+    let one = |lane: usize| Interval::new(1.0 + lane as f64, 2.0 + lane as f64);
+    for level in Level::all() {
+        for lanes in [1, 8, 9, 64] {
+            let mut block = Block::<Interval>::default();
+            block.prepare(3, lanes);
+            block.load(0, lanes, one);
+            for (out, a, b) in [(2, 0, 1), (1, 0, 1), (1, 1, 1), (1, 1, 0)] {
+                block.fill(1, Interval::new(3.0, 4.0));
+                let operand = |slot: usize, lane: usize| if slot == 0 { one(lane) } else { Interval::new(3.0, 4.0) };
+                block.arithmetic(level, Arithmetic::Mul, out, a, b);
+                let mut asked = 0;
+                block.read(out, lanes, |lane, x| {
+                    assert_eq!(x, operand(a, lane) * operand(b, lane), "{level:?} {out} {a} {b} lane {lane}");
+                    asked += 1;
+                });
+                assert_eq!(asked, lanes);
+            }
+            block.fill(1, Interval::ONE);
+            block.set(1, lanes - 1, Interval::ZERO);
+            (0..lanes - 1).for_each(|lane| assert_eq!(block.get(1, lane), Interval::ONE));
+            assert_eq!(block.get(1, lanes - 1), Interval::ZERO);
+        }
+    }
+}
+
+/// Parameters from their ends: those of the scalar function.
+#[test]
+fn parameters() {
+    let mut g = Generator(15);
+    for level in Level::all() {
+        for _ in 0..500 {
+            let ends: [Interval; 9] = std::array::from_fn(|_| g.bounded());
+            let mut block = Block::<Affine<3>>::default();
+            block.prepare(1, ends.len());
+            block.load(0, ends.len(), |lane| ends[lane]);
+            block.spanning(level, 0);
+            for (lane, &ends) in ends.iter().enumerate() {
+                let (got, wanted) = (block.get(0, lane), Affine::<3>::spanning(0, ends));
+                assert!(
+                    (0..5).all(|i| got.component(i).to_bits() == wanted.component(i).to_bits()),
+                    "{level:?} {ends:?}"
+                );
+            }
+        }
+    }
+}
+
 #[test]
 fn affine_forms() {
     agree(affine::<1>, 3, 500);

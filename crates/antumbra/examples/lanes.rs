@@ -2,7 +2,8 @@
 //! `cargo run --release -p antumbra --example lanes`.
 //!
 //! Each question is a piece of a ray or frustum of the picture's camera in, and an enclosure out: the lanes are filled and read.
-//! Thread CPU time, the median of several interleaved runs; a Markdown table.
+//! A second table has the tape alone, coordinates included: what each of several more runs on the same lanes takes.
+//! Thread CPU time, the median of several interleaved runs; Markdown tables.
 use antumbra::eval::{FanPiece, Gradient, Inclusion, RayPiece, Workspace};
 use antumbra::expr::Formula;
 use antumbra::geom::{Box3, Film};
@@ -18,6 +19,8 @@ use std::hint::black_box;
 const QUESTIONS: usize = 4096;
 /// Runs of which the median is shown.
 const RUNS: usize = 15;
+/// Runs of the tape on the same lanes, by which it is timed alone.
+const AGAIN: usize = 8;
 
 /// The questions of a scene: neighbouring pixels, each at some depth.
 struct Questions {
@@ -70,6 +73,22 @@ fn ask(tape: &Tape, form: usize, q: &Questions, n: usize, work: &mut Workspace) 
     black_box((&ranges, &forms, &duals, &gradients));
 }
 
+/// Nanoseconds per question of one pass over all.
+fn time(tape: &Tape, form: usize, q: &Questions, n: usize, work: &mut Workspace) -> f64 {
+    let begin = ThreadTime::now();
+    ask(tape, form, q, n, work);
+    begin.elapsed().as_secs_f64() * 1e9 / QUESTIONS as f64
+}
+
+/// A row of a table: medians.
+fn row(name: &str, times: Vec<Vec<f64>>) -> String {
+    let cell = |mut times: Vec<f64>| {
+        times.sort_by(f64::total_cmp);
+        format!(" {:.1} |", times[RUNS / 2])
+    };
+    format!("| {name} |{}\n", times.into_iter().map(cell).collect::<String>())
+}
+
 fn main() {
     let widths = [1, 8, 16, 32, 64];
     let mut work: Vec<(String, Workspace, &[usize])> = vec![("one by one".into(), Workspace::default(), &widths[..1])];
@@ -78,11 +97,11 @@ fn main() {
         let name = name.split('(').next().unwrap_or_default().to_owned();
         work.push((name, Workspace::on(level), &widths[1..]));
     }
-    print!("| |");
-    work.iter().for_each(|(name, _, widths)| widths.iter().for_each(|n| print!(" {name} {n} |")));
-    print!("\n|---|");
-    work.iter().for_each(|(_, _, widths)| widths.iter().for_each(|_| print!("---|")));
-    println!();
+    let heads = work.iter().flat_map(|(name, _, widths)| widths.iter().map(move |n| format!("{name} {n}")));
+    let heads = heads.collect::<Vec<_>>();
+    let head = |heads: &[String]| format!("| | {} |\n|---|{}\n", heads.join(" | "), "---|".repeat(heads.len()));
+    print!("With filling and reading the lanes:\n\n{}", head(&heads));
+    let mut alone = head(&heads[1..]);
     let field = Scene::from_formula(&sources(8)).expect("a field");
     let scenes = PRESETS[..4]
         .iter()
@@ -94,25 +113,27 @@ fn main() {
         for (form, name) in
             ["interval", "affine (t, i, j)", "affine value and derivative", "gradient"].iter().enumerate()
         {
-            let columns: usize = work.iter().map(|(_, _, widths)| widths.len()).sum();
-            let mut times = vec![Vec::with_capacity(RUNS); columns];
+            let mut whole = vec![Vec::with_capacity(RUNS); heads.len()];
+            let mut more = vec![Vec::with_capacity(RUNS); heads.len() - 1];
             for _ in 0..RUNS {
                 let mut column = 0;
                 for (_, work, widths) in &mut work {
                     for &n in *widths {
-                        let begin = ThreadTime::now();
-                        ask(&tape, form, &q, n, work);
-                        times[column].push(begin.elapsed().as_secs_f64() * 1e9 / QUESTIONS as f64);
+                        let once = time(&tape, form, &q, n, work);
+                        whole[column].push(once);
+                        if column > 0 {
+                            work.repeat_tapes(1 + AGAIN);
+                            more[column - 1].push((time(&tape, form, &q, n, work) - once) / AGAIN as f64);
+                            work.repeat_tapes(1);
+                        }
                         column += 1;
                     }
                 }
             }
-            print!("| {surface} {name} |");
-            for mut times in times {
-                times.sort_by(f64::total_cmp);
-                print!(" {:.1} |", times[RUNS / 2]);
-            }
-            println!();
+            let name = format!("{surface} {name}");
+            print!("{}", row(&name, whole));
+            alone += &row(&name, more);
         }
     }
+    print!("\nThe tape alone:\n\n{alone}");
 }

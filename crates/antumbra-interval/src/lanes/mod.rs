@@ -33,7 +33,7 @@ pub use block::Avx2;
 pub enum Level {
     /// Plain operations rounded to nearest, then a step outward.
     Portable,
-    /// AVX2, for blocks; the other kernels take the portable way.
+    /// AVX2 with FMA, for blocks; the other kernels take the portable way.
     #[cfg(target_arch = "x86_64")]
     Avx2(Avx2),
     /// AVX-512F with a rounding direction in each instruction.

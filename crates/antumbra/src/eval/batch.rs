@@ -81,8 +81,10 @@ impl ShaftPiece {
 /// Fewer questions than these are asked one by one.
 pub(super) const FEWEST: usize = 3;
 
-/// Slots before those of the tape: the parameter, three directions that become coordinates, three starting points.
-pub(super) const OWN: usize = 7;
+/// Slots before those of the tape: the parameter, three directions, three starting points, three coordinates.
+pub(super) const OWN: usize = 10;
+/// The first of the coordinates.
+pub(super) const AXES: usize = 7;
 
 /// How full batches were.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -111,6 +113,8 @@ impl Occupancy {
 #[derive(Debug)]
 pub(super) struct Scratch {
     pub(super) occupancy: Occupancy,
+    /// How often each tape is run on the same lanes: once, unless it is timed.
+    pub(super) times: usize,
     level: Level,
     ranges: Block<Interval>,
     rays: Block<Dual<1>>,
@@ -130,6 +134,7 @@ impl Scratch {
     pub(super) fn on(level: Level) -> Self {
         Self {
             occupancy: Occupancy::default(),
+            times: 1,
             level,
             ranges: Block::default(),
             rays: Block::default(),
@@ -172,9 +177,9 @@ fn run_block<F: Number + Packed>(
     places: &mut Vec<usize>,
 ) -> usize {
     for axis in 0..3 {
-        block.coordinate(level, 1 + axis, 0, 1 + axis, 4 + axis);
+        block.coordinate(level, AXES + axis, 0, 1 + axis, 4 + axis);
     }
-    run_clauses(tape, block, lanes, level, places, (1, OWN), in_vectors)
+    run_clauses(tape, block, lanes, level, places, (AXES, OWN), in_vectors)
 }
 
 /// Runs a tape on a block that holds the coordinates in slots from `axes` on; slots from `own` on are those of the tape. Tells where the
@@ -213,15 +218,22 @@ pub(super) fn run_clauses<F: Number + Packed>(
 fn start<F: Packed, T>(
     block: &mut Block<F>,
     pieces: &[T],
-    of: impl Fn(&T, usize) -> Interval,
+    of: impl Fn(&T) -> [Interval; 3],
     form: impl Fn(Interval) -> F,
 ) {
-    for axis in 0..3 {
-        let first = of(&pieces[0], axis);
-        if pieces.iter().all(|piece| of(piece, axis) == first) {
+    let first = of(&pieces[0]);
+    // By bits and without a branch: as many comparisons as there are numbers, of which vectors take several.
+    let bits = |x: &T| of(x).map(|x| [x.lo().to_bits(), x.hi().to_bits()]);
+    let wanted = bits(&pieces[0]);
+    let differ = pieces.iter().fold(0, |differ, piece| {
+        let found = bits(piece);
+        (0..3).fold(differ, |d, k| d | (found[k][0] ^ wanted[k][0]) | (found[k][1] ^ wanted[k][1]))
+    });
+    for (axis, first) in first.into_iter().enumerate() {
+        if differ == 0 {
             block.fill(4 + axis, form(first));
         } else {
-            block.load(4 + axis, pieces.len(), |lane| form(of(&pieces[lane], axis)));
+            block.load(4 + axis, pieces.len(), |lane| form(of(&pieces[lane])[axis]));
         }
     }
 }
@@ -232,10 +244,12 @@ struct Runs<'a> {
     level: Level,
     places: &'a mut Vec<usize>,
     occupancy: &'a mut Occupancy,
+    times: usize,
 }
 
 impl Runs<'_> {
-    /// Answers all questions but a few at the end. `load` writes parameter, directions and starting points into slots 0 to 6.
+    /// Answers all questions but a few at the end. `load` writes the ends of the parameter, directions and starting points into
+    /// slots 0 to 6.
     fn answer<F: Number + Packed, T>(
         self,
         block: &mut Block<F>,
@@ -251,8 +265,12 @@ impl Runs<'_> {
             self.occupancy.count(lanes);
             block.prepare(OWN + self.tape.slots(), lanes);
             load(block, pieces);
-            let value = run_block(self.tape, block, lanes, self.level, self.places);
-            out.iter_mut().enumerate().for_each(|(lane, out)| *out = block.get(value, lane));
+            block.spanning(self.level, 0);
+            let mut value = 0;
+            for _ in 0..self.times {
+                value = run_block(self.tape, block, lanes, self.level, self.places);
+            }
+            block.read(value, lanes, |lane, x| out[lane] = x);
         }
         Unasked(0)
     }
@@ -261,34 +279,34 @@ impl Runs<'_> {
 impl Scratch {
     /// Enclosures of the function over the boxes of the pieces.
     pub(super) fn ranges(&mut self, tape: &Tape, pieces: &[RayPiece], out: &mut [Interval]) -> Unasked {
-        let Self { occupancy, level, ranges, places, .. } = self;
-        Runs { tape, level: *level, places, occupancy }.answer(ranges, pieces, out, |block, pieces| {
+        let Self { occupancy, level, ranges, places, times, .. } = self;
+        Runs { tape, level: *level, places, occupancy, times: *times }.answer(ranges, pieces, out, |block, pieces| {
             block.load(0, pieces.len(), |lane| pieces[lane].t);
             (0..3).for_each(|axis| block.load(1 + axis, pieces.len(), |lane| pieces[lane].ray.direction[axis]));
-            start(block, pieces, |piece, axis| Interval::point(piece.ray.origin[axis]), |p| p);
+            start(block, pieces, |piece| axes(|k| Interval::point(piece.ray.origin[k])), |p| p);
         })
     }
 
     /// Values and derivatives along the pieces.
     pub(super) fn rays(&mut self, tape: &Tape, pieces: &[RayPiece], out: &mut [Dual<1>]) -> Unasked {
-        let Self { occupancy, level, rays, places, .. } = self;
-        Runs { tape, level: *level, places, occupancy }.answer(rays, pieces, out, |block, pieces| {
+        let Self { occupancy, level, rays, places, times, .. } = self;
+        Runs { tape, level: *level, places, occupancy, times: *times }.answer(rays, pieces, out, |block, pieces| {
             // Of parameters and directions only the values are read.
-            block.load(0, pieces.len(), |lane| Affine::<1>::spanning(0, pieces[lane].t));
+            block.load(0, pieces.len(), |lane| pieces[lane].t);
             for axis in 0..3 {
                 block.load(1 + axis, pieces.len(), |lane| Affine::<1>::constant(pieces[lane].ray.direction[axis]));
             }
-            start(block, pieces, |piece, axis| Interval::point(piece.ray.origin[axis]), Dual::constant);
+            start(block, pieces, |piece| axes(|k| Interval::point(piece.ray.origin[k])), Dual::constant);
         })
     }
 
     /// The function as linear functions over the pieces.
     pub(super) fn beams(&mut self, tape: &Tape, pieces: &[FanPiece], out: &mut [Affine<3>]) -> Unasked {
-        let Self { occupancy, level, beams, places, .. } = self;
-        Runs { tape, level: *level, places, occupancy }.answer(beams, pieces, out, |block, pieces| {
-            block.load(0, pieces.len(), |lane| Affine::<3>::spanning(0, pieces[lane].t));
+        let Self { occupancy, level, beams, places, times, .. } = self;
+        Runs { tape, level: *level, places, occupancy, times: *times }.answer(beams, pieces, out, |block, pieces| {
+            block.load(0, pieces.len(), |lane| pieces[lane].t);
             (0..3).for_each(|axis| block.load(1 + axis, pieces.len(), |lane| pieces[lane].fan.direction[axis]));
-            start(block, pieces, |piece, axis| piece.fan.apex[axis], Affine::constant);
+            start(block, pieces, |piece| axes(|k| piece.fan.apex[k]), Affine::constant);
         })
     }
 }
@@ -324,7 +342,10 @@ impl Scratch {
                 }
             }
             let mut machine = Gradients { block, level: self.level, lanes };
-            let value = machine.run(tape, &mut self.places);
+            let mut value = 0;
+            for _ in 0..self.times {
+                value = machine.run(tape, &mut self.places);
+            }
             out.iter_mut().enumerate().for_each(|(lane, out)| *out = machine.get(value, lane));
         }
         Unasked(0)

@@ -125,7 +125,7 @@ impl Runs<'_> {
             load(self.blocks, self.level, questions);
             let block = F::block(self.blocks);
             let value = run_clauses(tape, block, lanes, self.level, self.places, (axes, own), F::in_vectors);
-            out.iter_mut().enumerate().for_each(|(lane, out)| *out = wanted(block.get(value, lane)));
+            block.read(value, lanes, |lane, x| out[lane] = wanted(x));
         }
         Unasked(0)
     }
@@ -133,7 +133,8 @@ impl Runs<'_> {
 
 /// The coordinates `p + t d` in slots from `out` on, with t in slot 0, directions from slot 1 on and starting points behind them.
 fn points(block: &mut Block<Affine<5>>, level: Level, pieces: &[ShaftPiece], out: usize) {
-    block.load(0, pieces.len(), |lane| Affine::<5>::spanning(0, pieces[lane].t));
+    block.load(0, pieces.len(), |lane| pieces[lane].t);
+    block.spanning(level, 0);
     for axis in 0..3 {
         block.load(1 + axis, pieces.len(), |lane| pieces[lane].direction[axis]);
         block.load(4 + axis, pieces.len(), |lane| pieces[lane].apex[axis]);

@@ -35,6 +35,12 @@ impl Workspace {
         Self { batch: batch::Scratch::on(level), ..Self::default() }
     }
 
+    /// From now on every tape is run so often on the lanes of a batch, once they are filled: a tape alone is timed by this. No answer
+    /// depends on it.
+    pub fn repeat_tapes(&mut self, times: usize) {
+        self.batch.times = times.max(1);
+    }
+
     /// How full the batches were since this was asked last.
     pub fn take_occupancy(&mut self) -> Occupancy {
         std::mem::take(&mut self.batch.occupancy)

@@ -9,6 +9,8 @@
 //! stream per operand.
 mod kernels;
 mod kinds;
+mod run;
+mod slots;
 mod vector;
 #[cfg(target_arch = "x86_64")]
 mod x86;
@@ -21,7 +23,9 @@ use crate::affine::{Affine, Dual, Jet, SlopeOf};
 use crate::quadratic::Quadratic;
 use crate::{Interval, PointJet};
 use kernels::{AffineOf, DualOf, IntervalOf, Kernel};
-use sealed::{Act, Operation};
+use run::act;
+use sealed::Act;
+pub use slots::Block;
 pub use vector::WIDTH;
 use vector::{Eight, Plain, Vector};
 
@@ -78,6 +82,12 @@ pub trait Packed: Copy + sealed::Sealed + sealed::Compiled {
     /// A coordinate `p + t d` of a point on a ray; for a [`Dual`] with the derivative `d` by t.
     #[must_use]
     fn coordinate(t: Self, d: Self, p: Self) -> Self;
+    /// A parameter, from the interval that its first two numbers are: a function of the first symbol that runs from one end to the other,
+    /// of kinds that have symbols (of a [`Dual`] the value; its derivative is anything).
+    #[must_use]
+    fn spanning(self) -> Self {
+        self
+    }
 }
 
 mod sealed {
@@ -91,6 +101,8 @@ mod sealed {
         pub(super) out: usize,
         /// Where the operands are.
         pub(super) operands: [usize; 3],
+        /// From one vector of an operand to the next: 0 where all lanes hold the same number.
+        pub(super) steps: [usize; 3],
     }
 
     /// An operation.
@@ -102,6 +114,8 @@ mod sealed {
         Power(u32),
         /// A coordinate on a ray.
         Coordinate,
+        /// A parameter from its ends.
+        Spanning,
     }
     /// Kinds of number with kernels.
     pub trait Sealed {
@@ -223,6 +237,10 @@ where
     fn coordinate(t: Self, d: Self, p: Self) -> Self {
         (t * d).add_centre_radius(p.c, p.e)
     }
+    #[inline]
+    fn spanning(self) -> Self {
+        Self::spanning(0, Interval { lo: self.c, hi: self.e })
+    }
 }
 
 impl<const N: usize> Packed for Dual<N>
@@ -249,222 +267,8 @@ where
     fn coordinate(t: Self, d: Self, p: Self) -> Self {
         Self { value: Affine::coordinate(t.value, d.value, p.value), derivative: d.value }
     }
-}
-
-/// Slots of a batch: each holds one number per lane. Scratch memory: keep it, it only grows.
-#[derive(Clone, Debug)]
-pub struct Block<F> {
-    memory: Vec<Eight>,
-    vectors: usize,
-    kind: std::marker::PhantomData<F>,
-}
-
-impl<F> Default for Block<F> {
-    fn default() -> Self {
-        Self { memory: Vec::new(), vectors: 1, kind: std::marker::PhantomData }
-    }
-}
-
-impl<F: Packed> Block<F> {
-    /// Makes room for so many slots of so many lanes. What they hold does not matter, and is unknown.
-    /// Panics unless there are 1 to [`MOST`] lanes.
-    pub fn prepare(&mut self, slots: usize, lanes: usize) {
-        assert!((1..=MOST).contains(&lanes), "1 to {MOST} lanes");
-        self.vectors = lanes.div_ceil(WIDTH);
-        let size = slots * self.size();
-        if self.memory.len() < size {
-            self.memory.resize(size, Eight::default());
-        }
-    }
-
-    /// Vectors of a slot.
-    #[inline(always)]
-    fn size(&self) -> usize {
-        self.vectors * F::COMPONENTS
-    }
-
-    /// The first of the vectors that hold a lane.
-    #[inline(always)]
-    fn place(&self, slot: usize, lane: usize) -> (usize, usize) {
-        assert!(lane < self.vectors * WIDTH, "a lane of the block");
-        ((slot * self.vectors + lane / WIDTH) * F::COMPONENTS, lane % WIDTH)
-    }
-
-    /// Writes one lane.
     #[inline]
-    pub fn set(&mut self, slot: usize, lane: usize, x: F) {
-        let (first, k) = self.place(slot, lane);
-        let part = &mut self.memory[first..first + F::COMPONENTS];
-        for (i, vector) in part.iter_mut().enumerate() {
-            vector.0[k] = x.component(i);
-        }
-    }
-
-    /// Writes all lanes of a slot, or the first components of them: the others hold anything. The last lane is repeated up to the
-    /// end of its vector. Panics if `G` has more components.
-    #[inline]
-    pub fn load<G: Packed>(&mut self, slot: usize, lanes: usize, of: impl Fn(usize) -> G) {
-        let size = self.size();
-        let vectors = self.memory[slot * size..][..size].chunks_exact_mut(F::COMPONENTS);
-        for (first, vector) in (0..lanes).step_by(WIDTH).zip(vectors) {
-            let vector = &mut vector[..G::COMPONENTS];
-            for k in 0..WIDTH {
-                let x = of(usize::min(first + k, lanes - 1));
-                for (i, eight) in vector.iter_mut().enumerate() {
-                    eight.0[k] = x.component(i);
-                }
-            }
-        }
-    }
-
-    /// Writes components of all lanes, from `first` on, that stand in a slot of another block. Panics unless that has as many vectors, and
-    /// there are so many components.
-    pub fn put<G: Packed>(&mut self, slot: usize, first: usize, other: &Block<G>, from: usize) {
-        assert_eq!(self.vectors, other.vectors, "blocks of as many lanes");
-        let size = self.size();
-        let to = self.memory[slot * size..][..size].chunks_exact_mut(F::COMPONENTS);
-        let from = other.memory[from * other.size()..].chunks_exact(G::COMPONENTS);
-        to.zip(from).for_each(|(to, from)| to[first..first + G::COMPONENTS].copy_from_slice(from));
-    }
-
-    /// Reads one lane.
-    #[inline]
-    #[must_use]
-    pub fn get(&self, slot: usize, lane: usize) -> F {
-        let (first, k) = self.place(slot, lane);
-        let part = &self.memory[first..first + F::COMPONENTS];
-        F::from_components(|i| part[i].0[k])
-    }
-
-    /// Writes the same number into all lanes.
-    pub fn fill(&mut self, slot: usize, x: F) {
-        let size = self.size();
-        for part in self.memory[slot * size..][..size].chunks_exact_mut(F::COMPONENTS) {
-            for (i, vector) in part.iter_mut().enumerate() {
-                *vector = Eight([x.component(i); WIDTH]);
-            }
-        }
-    }
-
-    /// Repeats the last of the lanes in the rest of its vector, so that no operation meets numbers that nobody chose.
-    pub fn pad(&mut self, slot: usize, lanes: usize) {
-        let x = self.get(slot, lanes - 1);
-        for lane in lanes..self.vectors * WIDTH {
-            self.set(slot, lane, x);
-        }
-    }
-
-    /// `slot[out] = op(slot[a], slot[b])` in every lane; the slots may be the same. Operations of one operand take `a`.
-    #[inline]
-    pub fn arithmetic(&mut self, level: Level, op: Arithmetic, out: usize, a: usize, b: usize) {
-        self.act(level, Operation::Arithmetic(op), out, [a, b, b]);
-    }
-
-    /// `slot[out] = slot[a]^n` in every lane: by vectors for n from 3 to 8, else lane by lane.
-    #[inline]
-    pub fn power(&mut self, level: Level, lanes: usize, n: i32, out: usize, a: usize) {
-        match n {
-            3..=8 => self.act(level, Operation::Power(n as u32), out, [a; 3]),
-            _ => self.map(lanes, out, a, |x| x.power(n)),
-        }
-    }
-
-    /// `slot[out] = p + t d` in every lane: [`Packed::coordinate`].
-    #[inline]
-    pub fn coordinate(&mut self, level: Level, out: usize, t: usize, d: usize, p: usize) {
-        self.act(level, Operation::Coordinate, out, [t, d, p]);
-    }
-
-    #[inline]
-    fn act(&mut self, level: Level, op: Operation, out: usize, operands: [usize; 3]) {
-        let size = self.size();
-        let act_ = Act { op, out: out * size, operands: operands.map(|slot| slot * size) };
-        F::run(level, act_, &mut self.memory, self.vectors);
-    }
-
-    /// `slot[out] = f(slot[a])`, lane by lane.
-    #[inline]
-    pub fn map(&mut self, lanes: usize, out: usize, a: usize, f: impl Fn(F) -> F) {
-        for lane in 0..lanes {
-            let x = f(self.get(a, lane));
-            self.set(out, lane, x);
-        }
-        self.pad(out, lanes);
-    }
-
-    /// `slot[out] = f(slot[a], slot[b])`, lane by lane.
-    #[inline]
-    pub fn map2(&mut self, lanes: usize, out: usize, a: usize, b: usize, f: impl Fn(F, F) -> F) {
-        for lane in 0..lanes {
-            let x = f(self.get(a, lane), self.get(b, lane));
-            self.set(out, lane, x);
-        }
-        self.pad(out, lanes);
-    }
-}
-
-/// The operation on all vectors. Operands are read before the result is written: slots may be the same.
-///
-/// Always inlined, macros instead of closures: the code takes the features of the function that it is inlined into.
-#[inline(always)]
-fn act<V: Vector, F: Packed>(act: Act, memory: &mut [Eight], vectors: usize) {
-    macro_rules! each {
-        ($($x:ident = $k:literal),* => $value:expr) => {
-            for i in 0..vectors {
-                let at = i * F::COMPONENTS;
-                $( let $x = <F::Of<V> as Kernel<V>>::load(&memory[act.operands[$k] + at..][..F::COMPONENTS]); )*
-                let (value, proper): (F::Of<V>, V::Mask) = $value;
-                let proper = V::bits(proper);
-                if proper == u8::MAX {
-                    value.store(&mut memory[act.out + at..][..F::COMPONENTS]);
-                } else {
-                    let again = again::<F>(act, memory, at, !proper);
-                    value.store(&mut memory[act.out + at..][..F::COMPONENTS]);
-                    replace(&mut memory[act.out + at..][..F::COMPONENTS], !proper, &again);
-                }
-            }
-        };
-    }
-    match act.op {
-        Operation::Arithmetic(Arithmetic::Neg) => each!(x = 0 => x.neg()),
-        Operation::Arithmetic(Arithmetic::Add) => each!(x = 0, y = 1 => x.add(y)),
-        Operation::Arithmetic(Arithmetic::Sub) => each!(x = 0, y = 1 => x.sub(y)),
-        Operation::Arithmetic(Arithmetic::Mul) => each!(x = 0, y = 1 => x.mul(y)),
-        Operation::Arithmetic(Arithmetic::Div) => each!(x = 0, y = 1 => x.div(y)),
-        Operation::Arithmetic(Arithmetic::Sqr) => each!(x = 0 => x.sqr()),
-        Operation::Arithmetic(Arithmetic::Sqrt) => each!(x = 0 => x.sqrt()),
-        Operation::Arithmetic(Arithmetic::Abs) => each!(x = 0 => x.abs()),
-        Operation::Arithmetic(Arithmetic::Min) => each!(x = 0, y = 1 => x.min(y)),
-        Operation::Arithmetic(Arithmetic::Max) => each!(x = 0, y = 1 => x.max(y)),
-        Operation::Power(n) => each!(x = 0 => x.power(n)),
-        Operation::Coordinate => each!(t = 0, d = 1, p = 2 => Kernel::coordinate(t, d, p)),
-    }
-}
-
-/// The operation on the chosen lanes of one vector, by the scalar operator; of the others, an operand.
-#[cold]
-#[inline(never)]
-fn again<F: Packed>(act: Act, memory: &[Eight], at: usize, chosen: u8) -> [F; WIDTH] {
-    std::array::from_fn(|k| {
-        let operand = |j: usize| F::from_components(|i| memory[act.operands[j] + at + i].0[k]);
-        if chosen >> k & 1 == 0 {
-            return operand(0);
-        }
-        match act.op {
-            Operation::Arithmetic(op) => F::arithmetic(op, operand(0), operand(1)),
-            Operation::Power(n) => operand(0).power(n as i32),
-            Operation::Coordinate => F::coordinate(operand(0), operand(1), operand(2)),
-        }
-    })
-}
-
-/// Puts the chosen lanes in place.
-#[cold]
-#[inline(never)]
-fn replace<F: Packed>(to: &mut [Eight], chosen: u8, from: &[F; WIDTH]) {
-    for (k, x) in from.iter().enumerate().filter(|(k, _)| chosen >> k & 1 == 1) {
-        for (i, vector) in to.iter_mut().enumerate() {
-            vector.0[k] = x.component(i);
-        }
+    fn spanning(self) -> Self {
+        Self { value: Packed::spanning(self.value), ..self }
     }
 }

@@ -72,6 +72,24 @@ pub trait Vector: Copy {
     fn greater(self, o: Self) -> Self;
     /// `self < o ? self : o`.
     fn lesser(self, o: Self) -> Self;
+    /// Not a zero; true of NaN.
+    fn nonzero(self) -> Self::Mask;
+    /// The number where the answer is yes, else +0.
+    fn keep(mask: Self::Mask, x: Self) -> Self;
+    /// The step outward `fl(fl(size phi) + eta)` of the [`round`] module, for `size >= 0`, or a number that gives the same sums and
+    /// differences with every number of that size.
+    ///
+    /// So does `fl(size phi + eta)`, rounded once. Below `2^-1020` it is the same number: `fl(size phi)` is a multiple of `eta` there, and
+    /// a sum with `eta` is exact, so both are equal unless `size phi` lies in the middle between two multiples. That takes
+    /// `size (2^52 + 1) = (2k + 1) 2^-970`, a multiple of `2^-970`. From `2^-1020` on both are more than half the distance of `size` to the
+    /// float above it, and less than 3/2 of the one to either neighbour: sum and difference round to the neighbours.
+    fn step(size: Self) -> Self;
+    /// `self + step(|self|)` of ordinary numbers, whose size is from `2^-1000` on: the float above, +inf of the largest one.
+    ///
+    /// `fl(r + |r| phi)` is that too, rounded once: `|r| phi` alone is between 1/2 and 3/2 of the distance.
+    fn raised(self) -> Self;
+    /// `self - step(|self|)` of such numbers: the float below.
+    fn lowered(self) -> Self;
 }
 
 /// Plain Rust.
@@ -156,6 +174,26 @@ impl Vector for Plain {
     #[inline(always)]
     fn lesser(self, o: Self) -> Self {
         Self(each!(i => if self.0[i] < o.0[i] { self.0[i] } else { o.0[i] }))
+    }
+    #[inline(always)]
+    fn nonzero(self) -> Self::Mask {
+        each!(i => self.0[i] != 0.0)
+    }
+    #[inline(always)]
+    fn keep(mask: Self::Mask, x: Self) -> Self {
+        Self(each!(i => if mask[i] { x.0[i] } else { 0.0 }))
+    }
+    #[inline(always)]
+    fn step(size: Self) -> Self {
+        size.mul(Self::splat(round::PHI)).add(Self::splat(round::ETA))
+    }
+    #[inline(always)]
+    fn raised(self) -> Self {
+        self.add(Self::step(self.abs()))
+    }
+    #[inline(always)]
+    fn lowered(self) -> Self {
+        self.sub(Self::step(self.abs()))
     }
     #[inline(always)]
     fn lt(self, o: Self) -> Self::Mask {

@@ -4,20 +4,21 @@
 //! [`on_avx2`]. Nothing else of the crate makes such vectors.
 use super::vector::{Eight, Vector};
 use super::{Act, Packed, act};
-use crate::round::{ETA, WHOLE};
+use crate::round::{ETA, PHI, WHOLE};
 use std::arch::x86_64::{
-    __m256d, __m256i, __m512d, __mmask8, _CMP_EQ_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _mm256_add_epi64, _mm256_add_pd,
-    _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_si256, _mm256_castsi256_pd, _mm256_cmp_pd,
-    _mm256_cmpgt_epi64, _mm256_div_pd, _mm256_load_pd, _mm256_max_pd, _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd,
-    _mm256_or_pd, _mm256_or_si256, _mm256_set1_epi64x, _mm256_set1_pd, _mm256_setzero_si256, _mm256_slli_epi64,
-    _mm256_sqrt_pd, _mm256_srli_epi64, _mm256_store_pd, _mm256_sub_epi64, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd,
-    _mm512_add_epi64, _mm512_add_pd, _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd,
-    _mm512_load_pd, _mm512_mask_blend_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd, _mm512_or_epi64,
-    _mm512_set1_epi64, _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srai_epi64, _mm512_srli_epi64,
-    _mm512_store_pd, _mm512_sub_epi64, _mm512_sub_pd, _mm512_xor_epi64,
+    __m256d, __m256i, __m512d, __mmask8, _CMP_EQ_OQ, _CMP_LE_OQ, _CMP_LT_OQ, _CMP_NEQ_UQ, _mm256_add_epi64,
+    _mm256_add_pd, _mm256_and_pd, _mm256_andnot_pd, _mm256_blendv_pd, _mm256_castpd_si256, _mm256_castsi256_pd,
+    _mm256_cmp_pd, _mm256_cmpgt_epi64, _mm256_div_pd, _mm256_fmadd_pd, _mm256_fnmadd_pd, _mm256_load_pd, _mm256_max_pd,
+    _mm256_min_pd, _mm256_movemask_pd, _mm256_mul_pd, _mm256_or_pd, _mm256_or_si256, _mm256_set1_epi64x,
+    _mm256_set1_pd, _mm256_setzero_si256, _mm256_slli_epi64, _mm256_sqrt_pd, _mm256_srli_epi64, _mm256_store_pd,
+    _mm256_sub_epi64, _mm256_sub_pd, _mm256_xor_pd, _mm512_abs_pd, _mm512_add_epi64, _mm512_add_pd,
+    _mm512_castpd_si512, _mm512_castsi512_pd, _mm512_cmp_pd_mask, _mm512_div_pd, _mm512_fmadd_pd, _mm512_fnmadd_pd,
+    _mm512_load_pd, _mm512_mask_blend_pd, _mm512_maskz_mov_pd, _mm512_max_pd, _mm512_min_pd, _mm512_mul_pd,
+    _mm512_or_epi64, _mm512_set1_epi64, _mm512_set1_pd, _mm512_slli_epi64, _mm512_sqrt_pd, _mm512_srai_epi64,
+    _mm512_srli_epi64, _mm512_store_pd, _mm512_sub_epi64, _mm512_sub_pd, _mm512_test_epi64_mask, _mm512_xor_epi64,
 };
 
-/// Proof that this processor and operating system support AVX2.
+/// Proof that this processor and operating system support AVX2 and FMA.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Avx2 {
     _only_from_detect: (),
@@ -27,7 +28,8 @@ impl Avx2 {
     /// The proof, if the processor has the instructions.
     #[must_use]
     pub fn detect() -> Option<Self> {
-        std::arch::is_x86_feature_detected!("avx2").then_some(Self { _only_from_detect: () })
+        let both = std::arch::is_x86_feature_detected!("avx2") && std::arch::is_x86_feature_detected!("fma");
+        both.then_some(Self { _only_from_detect: () })
     }
 }
 
@@ -129,6 +131,26 @@ impl Vector for V512 {
     #[inline(always)]
     fn lesser(self, o: Self) -> Self {
         Self(unsafe { _mm512_min_pd(self.0, o.0) })
+    }
+    #[inline(always)]
+    fn nonzero(self) -> __mmask8 {
+        unsafe { _mm512_test_epi64_mask(_mm512_castpd_si512(self.0), _mm512_set1_epi64(i64::MAX)) }
+    }
+    #[inline(always)]
+    fn keep(mask: __mmask8, x: Self) -> Self {
+        Self(unsafe { _mm512_maskz_mov_pd(mask, x.0) })
+    }
+    #[inline(always)]
+    fn step(size: Self) -> Self {
+        Self(unsafe { _mm512_fmadd_pd(size.0, _mm512_set1_pd(PHI), _mm512_set1_pd(ETA)) })
+    }
+    #[inline(always)]
+    fn raised(self) -> Self {
+        Self(unsafe { _mm512_fmadd_pd(_mm512_abs_pd(self.0), _mm512_set1_pd(PHI), self.0) })
+    }
+    #[inline(always)]
+    fn lowered(self) -> Self {
+        Self(unsafe { _mm512_fnmadd_pd(_mm512_abs_pd(self.0), _mm512_set1_pd(PHI), self.0) })
     }
     #[inline(always)]
     fn lt(self, o: Self) -> __mmask8 {
@@ -288,6 +310,32 @@ impl Vector for V256 {
         Self(halves!(_mm256_min_pd self.0, o.0))
     }
     #[inline(always)]
+    fn nonzero(self) -> Self::Mask {
+        let zero = Self::splat(0.0);
+        unsafe {
+            [_mm256_cmp_pd::<_CMP_NEQ_UQ>(self.0[0], zero.0[0]), _mm256_cmp_pd::<_CMP_NEQ_UQ>(self.0[1], zero.0[1])]
+        }
+    }
+    #[inline(always)]
+    fn keep(mask: Self::Mask, x: Self) -> Self {
+        Self(halves!(_mm256_and_pd mask, x.0))
+    }
+    #[inline(always)]
+    fn step(size: Self) -> Self {
+        let (phi, eta) = (Self::splat(PHI), Self::splat(ETA));
+        Self(halves!(_mm256_fmadd_pd size.0, phi.0, eta.0))
+    }
+    #[inline(always)]
+    fn raised(self) -> Self {
+        let (size, phi) = (self.abs(), Self::splat(PHI));
+        Self(halves!(_mm256_fmadd_pd size.0, phi.0, self.0))
+    }
+    #[inline(always)]
+    fn lowered(self) -> Self {
+        let (size, phi) = (self.abs(), Self::splat(PHI));
+        Self(halves!(_mm256_fnmadd_pd size.0, phi.0, self.0))
+    }
+    #[inline(always)]
     fn lt(self, o: Self) -> Self::Mask {
         unsafe { [_mm256_cmp_pd::<_CMP_LT_OQ>(self.0[0], o.0[0]), _mm256_cmp_pd::<_CMP_LT_OQ>(self.0[1], o.0[1])] }
     }
@@ -340,7 +388,7 @@ fn on_avx512<F: Packed>(act_: Act, memory: &mut [Eight], vectors: usize) {
     act::<V512, F>(act_, memory, vectors);
 }
 
-#[target_feature(enable = "avx2")]
+#[target_feature(enable = "avx2,fma")]
 fn on_avx2<F: Packed>(act_: Act, memory: &mut [Eight], vectors: usize) {
     act::<V256, F>(act_, memory, vectors);
 }

@@ -125,6 +125,18 @@ impl<V: Vector, const N: usize> AffineOf<V, N> {
         Self::and_magnitudes(&self.a, self.e).mul(V::splat(1.0 + (2 * N + 4) as f64 * U))
     }
 
+    /// The first symbol runs from one end to the other, both bounded; a constant where they are the same.
+    #[inline(always)]
+    pub(super) fn spanning_from(ends: IntervalOf<V>) -> Self {
+        let (half, mut a) = (V::splat(0.5), [V::splat(0.0); N]);
+        let (l, h) = (half.mul(ends.lo), half.mul(ends.hi));
+        a[0] = h.sub(l);
+        let size = l.abs().add(h.abs());
+        let e = V::splat(8.0 * U).mul(size).add(V::splat(TINY));
+        let point = V::both(ends.lo.le(ends.hi), ends.hi.le(ends.lo));
+        Self::select(point, Self::constant(ends), Self::sealed(l.add(h), a, e, size))
+    }
+
     /// `yes` where the answer is yes, else `no`.
     #[inline(always)]
     pub(super) fn select(mask: V::Mask, yes: Self, no: Self) -> Self {
@@ -249,5 +261,9 @@ impl<V: Vector, const N: usize> Kernel<V> for AffineOf<V, N> {
     #[inline(always)]
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask) {
         (t.times(d).shifted(p.c, p.e), V::always())
+    }
+    #[inline(always)]
+    fn spanning(self) -> (Self, V::Mask) {
+        (Self::spanning_from(IntervalOf { lo: self.c, hi: self.e }), V::always())
     }
 }

@@ -92,4 +92,8 @@ impl<V: Vector, const N: usize> Kernel<V> for DualOf<V, N> {
         let value = t.value.times(d.value).shifted(p.value.c, p.value.e);
         (Self { value, derivative: d.value }, V::always())
     }
+    #[inline(always)]
+    fn spanning(self) -> (Self, V::Mask) {
+        (Self { value: self.value.spanning().0, ..self }, V::always())
+    }
 }

@@ -1,7 +1,6 @@
 //! Intervals: step by step what `arith`, `power` and `round` do.
 use super::super::vector::{Eight, Vector};
 use super::Kernel;
-use crate::round::{ETA, PHI};
 
 /// Eight intervals.
 #[derive(Clone, Copy)]
@@ -13,42 +12,66 @@ pub struct IntervalOf<V> {
 /// The step outward from `r`.
 #[inline(always)]
 pub(super) fn step<V: Vector>(r: V) -> V {
-    r.abs().mul(V::splat(PHI)).add(V::splat(ETA))
+    V::step(r.abs())
 }
 
-/// The step outward for the sum `r = fl(a + b)`.
+/// Results from this size on are ordinary numbers: the step outward leads to the neighbouring float.
+const ORDINARY: f64 = 1e-290;
+
+/// The step outward for the sum `r = fl(a + b)`: a zero term, or a sum that is zero, is exact.
 #[inline(always)]
 fn sum_error<V: Vector>(a: V, b: V, r: V) -> V {
-    let zero = V::splat(0.0);
-    let inexact = V::both(zero.lt(r.abs()), V::both(zero.lt(a.abs()), zero.lt(b.abs())));
-    V::select(inexact, step(r), zero)
+    V::keep(V::both(V::both(a.nonzero(), b.nonzero()), r.nonzero()), step(r))
 }
 
 impl<V: Vector> IntervalOf<V> {
-    /// A zero term, or a sum that is zero, is exact. Sums that overflow, of empty lanes, or with a NaN are done again.
+    /// Sums that overflow, of empty lanes, or with a NaN are done again: one end is not finite there, and so is the difference.
     #[inline(always)]
     pub(super) fn plus(self, o: Self) -> (Self, V::Mask) {
         let (lo, hi) = (self.lo.add(o.lo), self.hi.add(o.hi));
-        let finite = V::both(lo.abs().le(V::splat(f64::MAX)), hi.abs().le(V::splat(f64::MAX)));
+        let finite = lo.sub(hi).abs().le(V::splat(f64::MAX));
         let value = Self { lo: lo.sub(sum_error(self.lo, o.lo, lo)), hi: hi.add(sum_error(self.hi, o.hi, hi)) };
         (value, finite)
     }
 
-    /// The scalar operator picks the extreme corners by signs. They are the least and the largest of all four, also rounded, as
-    /// rounding is monotone; and so is the step outward, which leads to the neighbouring float there.
+    /// The scalar operator picks the extreme corners by signs. Where one factor is nowhere negative, so does this. Else they are the
+    /// least and the largest of all four, also rounded, as rounding is monotone.
+    ///
+    /// Both ends of the result ordinary, so are those of the factors: an infinite or empty factor has an infinite corner, or, as a
+    /// factor with a NaN, corners that are 0 or NaN. These come last in one of both selections, which keep the last.
     #[inline(always)]
     pub(super) fn times(self, o: Self) -> (Self, V::Mask) {
-        let (p, q, r, s) = (self.lo.mul(o.lo), self.lo.mul(o.hi), self.hi.mul(o.lo), self.hi.mul(o.hi));
-        let (lo, hi) = (p.lesser(q).lesser(r.lesser(s)), p.greater(q).greater(r.greater(s)));
-        let value = Self { lo: lo.sub(step(lo)), hi: hi.add(step(hi)) };
-        let proper = V::both(self.moderate(), o.moderate());
+        let zero = V::splat(0.0);
+        let (self_positive, o_positive) = (zero.le(self.lo), zero.le(o.lo));
+        let (lo, hi) = if V::all(V::both(self_positive, o_positive)) {
+            (self.lo.mul(o.lo), self.hi.mul(o.hi))
+        } else if V::all(self_positive) {
+            self.times_signed(o)
+        } else if V::all(o_positive) {
+            o.times_signed(self)
+        } else {
+            let (p, q, r, s) = (self.lo.mul(o.lo), self.lo.mul(o.hi), self.hi.mul(o.lo), self.hi.mul(o.hi));
+            (p.lesser(q).lesser(r.lesser(s)), s.greater(r).greater(q.greater(p)))
+        };
+        let value = Self { lo: lo.lowered(), hi: hi.raised() };
+        let small = V::splat(ORDINARY);
+        let proper = V::both(small.lt(lo.abs()), small.lt(hi.abs()));
+        let proper = V::both(proper, lo.sub(hi).abs().le(V::splat(f64::MAX)));
         if V::all(proper) {
             return (value, proper);
         }
-        // 0 times anything bounded is [+0, -0], as it is of the scalar operator.
-        let (none, zero) = (V::either(self.is_zero(), o.is_zero()), V::splat(0.0));
-        let value = Self { lo: V::select(none, zero, value.lo), hi: V::select(none, zero.neg(), value.hi) };
-        (value, V::both(self.is_zero_or_moderate(), o.is_zero_or_moderate()))
+        // Of moderate factors only those products are 0 that are exactly 0, and [+0, -0] of the scalar operator.
+        let value = Self { lo: V::keep(lo.nonzero(), value.lo), hi: V::select(hi.nonzero(), value.hi, zero.neg()) };
+        (value, V::either(proper, V::both(self.is_zero_or_moderate(), o.is_zero_or_moderate())))
+    }
+
+    /// The extreme corners of a product by a factor that is not negative.
+    #[inline(always)]
+    fn times_signed(self, o: Self) -> (V, V) {
+        let zero = V::splat(0.0);
+        let least = V::select(o.lo.lt(zero), self.hi, self.lo);
+        let most = V::select(o.hi.lt(zero), self.lo, self.hi);
+        (least.mul(o.lo), most.mul(o.hi))
     }
 
     /// `(m, r)` with `|x - m| <= r` for every `x`.
@@ -161,21 +184,46 @@ impl<V: Vector> IntervalOf<V> {
         }
     }
 
+    /// The power from 3 to 8.
+    #[inline(always)]
+    fn power_of<const N: u32>(self) -> (Self, V::Mask) {
+        // The eighth powers of these are ordinary.
+        let (zero, small, large) = (V::splat(0.0), V::splat(1e-17), V::splat(1e17));
+        let (lo, hi) = (self.lo.abs(), self.hi.abs());
+        if N.is_multiple_of(2) {
+            let across = V::both(self.lo.le(zero), zero.le(self.hi));
+            // A NaN is the nearer or the farther end.
+            let (near, far) = (lo.lesser(hi), hi.greater(lo));
+            let least = V::keep(V::not(across), Self::chain(near, N, false));
+            let proper = V::both(V::both(small.lt(far), far.lt(large)), V::either(across, small.lt(near)));
+            return (Self { lo: least, hi: Self::chain(far, N, true) }, proper);
+        }
+        // Odd and increasing.
+        let value = if V::all(zero.le(self.lo)) {
+            Self { lo: Self::chain(lo, N, false), hi: Self::chain(hi, N, true) }
+        } else {
+            let lo_negative = Self::chain(lo, N, true).neg();
+            let hi_negative = Self::chain(hi, N, false).neg();
+            Self {
+                lo: V::select(self.lo.lt(zero), lo_negative, Self::chain(lo, N, false)),
+                hi: V::select(self.hi.lt(zero), hi_negative, Self::chain(hi, N, true)),
+            }
+        };
+        (value, self.within(1e-17, 1e17))
+    }
+
     #[inline(always)]
     fn rounded(r: V, up: bool) -> V {
-        if up { r.add(step(r)) } else { r.sub(step(r)) }
+        if up { r.raised() } else { r.lowered() }
     }
 
-    /// Just 0.
-    #[inline(always)]
-    fn is_zero(self) -> V::Mask {
-        let zero = V::splat(0.0);
-        V::both(self.lo.abs().le(zero), self.hi.abs().le(zero))
-    }
-
+    /// Ends that are 0, or whose products are ordinary numbers. No empty lane, none with a NaN.
     #[inline(always)]
     fn is_zero_or_moderate(self) -> V::Mask {
-        V::either(self.is_zero(), self.moderate())
+        let (small, large, lo, hi) = (V::splat(1e-140), V::splat(1e140), self.lo.abs(), self.hi.abs());
+        let fits = V::both(lo.lt(large), hi.lt(large));
+        let (lo, hi) = (V::either(small.lt(lo), V::not(lo.nonzero())), V::either(small.lt(hi), V::not(hi.nonzero())));
+        V::both(fits, V::both(lo, hi))
     }
 
     /// Ends whose products are ordinary numbers. No empty lane, none with a NaN.
@@ -225,13 +273,20 @@ impl<V: Vector> Kernel<V> for IntervalOf<V> {
     }
     #[inline(always)]
     fn sqr(self) -> (Self, V::Mask) {
-        let zero = V::splat(0.0);
+        let (zero, small) = (V::splat(0.0), V::splat(ORDINARY));
         let (lo, hi) = (self.lo.abs(), self.hi.abs());
         let across = V::both(self.lo.le(zero), zero.le(self.hi));
-        let (near, far) = (lo.lesser(hi), lo.greater(hi));
+        // A NaN is the nearer or the farther end.
+        let (near, far) = (lo.lesser(hi), hi.greater(lo));
         let (l, h) = (near.mul(near), far.mul(far));
-        let value = Self { lo: V::select(across, zero, l.sub(step(l))), hi: h.add(step(h)) };
-        (value, self.moderate())
+        let value = Self { lo: V::keep(V::not(across), l.lowered()), hi: h.raised() };
+        let proper = V::both(V::both(small.lt(h), h.lt(V::splat(f64::INFINITY))), V::either(across, small.lt(l)));
+        if V::all(proper) {
+            return (value, proper);
+        }
+        // The square of 0 is [+0, -0] of the scalar operator.
+        let none = V::both(across, V::not(far.nonzero()));
+        (Self { lo: value.lo, hi: V::select(none, zero.neg(), value.hi) }, V::either(proper, none))
     }
     /// Empty intervals, and those below 0, are done again.
     #[inline(always)]
@@ -265,22 +320,15 @@ impl<V: Vector> Kernel<V> for IntervalOf<V> {
     }
     #[inline(always)]
     fn power(self, n: u32) -> (Self, V::Mask) {
-        let (lo, hi, zero) = (self.lo.abs(), self.hi.abs(), V::splat(0.0));
-        let value = if n.is_multiple_of(2) {
-            let across = V::both(self.lo.le(zero), zero.le(self.hi));
-            let least = Self::chain(lo.lesser(hi), n, false);
-            Self { lo: V::select(across, zero, least), hi: Self::chain(lo.greater(hi), n, true) }
-        } else {
-            // Odd and increasing.
-            let lo_negative = Self::chain(lo, n, true).neg();
-            let hi_negative = Self::chain(hi, n, false).neg();
-            Self {
-                lo: V::select(self.lo.lt(zero), lo_negative, Self::chain(lo, n, false)),
-                hi: V::select(self.hi.lt(zero), hi_negative, Self::chain(hi, n, true)),
-            }
-        };
-        // The eighth power of these is moderate.
-        (value, self.within(1e-17, 1e17))
+        // The exponent known, its chains of products are straight.
+        match n {
+            3 => self.power_of::<3>(),
+            4 => self.power_of::<4>(),
+            5 => self.power_of::<5>(),
+            6 => self.power_of::<6>(),
+            7 => self.power_of::<7>(),
+            _ => self.power_of::<8>(),
+        }
     }
     #[inline(always)]
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask) {

@@ -87,4 +87,9 @@ pub trait Kernel<V: Vector>: Copy {
     fn power(self, n: u32) -> (Self, V::Mask);
     /// `p + t d`.
     fn coordinate(t: Self, d: Self, p: Self) -> (Self, V::Mask);
+    /// A parameter, from its ends.
+    #[inline(always)]
+    fn spanning(self) -> (Self, V::Mask) {
+        (self, V::always())
+    }
 }
