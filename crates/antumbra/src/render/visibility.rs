@@ -104,21 +104,11 @@ pub(super) fn primary(
         return (out, Occupancy::default());
     }
     let mut nodes = pass.divide(whole);
-    let d: u64 = nodes.iter().map(|n| n.cost.evaluations).sum();
     pass.patches(&mut nodes);
-    let pt: u64 = nodes.iter().map(|n| n.cost.evaluations).sum();
-    let tot = |s: &[Sight<'_>]| s.iter().map(|s| s.pixel.cost.evaluations).sum::<u64>();
     let (simple, mut sights) = pass.centres(&nodes);
-    let (c1, n1, n2) = (simple.iter().map(|p| p.cost.evaluations).sum::<u64>(), simple.len(), sights.len());
-    let c2 = tot(&sights);
     let parts = pass.coverages(&mut sights);
-    let c3 = tot(&sights);
     pass.corners(&mut sights, &parts);
-    let c4 = tot(&sights);
-    let ne = sights.iter().filter(|s| s.stage == Stage::Edge).count();
     pass.edges(&mut sights, &parts);
-    let c5 = tot(&sights);
-    eprintln!("TALLY {d} {} {c1} {n1} {c2} {n2} {} {} {} {ne}", pt - d, c3 - c2, c4 - c3, c5 - c4);
     out.reserve(BLOCK * BLOCK);
     in_order(task, &nodes, simple, sights, |pixel| {
         if !is_given(given, pixel.index) {
