@@ -99,6 +99,9 @@ impl<const N: usize> Affine<N> {
     ///
     /// With `m`, `d` the computed half sum and half difference: `|m - (lo + hi)/2| + |d - (hi - lo)/2|` is at most
     /// `3u (|lo|/2 + |hi|/2)` (three roundings) plus `4 eta/2` (halving a subnormal).
+    ///
+    /// So it holds as well for the symbol that is -1, 0 and 1 at `x.lo()`, at the computed `m` and at `x.hi()`, and linear in between: what divides `x` at
+    /// [`Interval::mid`], which is `m` but for underflow, relies on it.
     #[must_use]
     pub fn spanning(i: usize, x: Interval) -> Self {
         if x.lo() == x.hi() {

@@ -5,7 +5,7 @@ use antumbra_interval::round::{sub_down, sub_up};
 
 /// Encloses `P_k - a_k i - b_k j` over places `(i, j)` with `|i|` and `|j|` at most `half`, and all points P of the boxes there; `slopes` are the
 /// `(a, b)` of the three coordinates. A box is given by lower bounds of its coordinates, and of these with their signs turned. `None`
-/// if a number is not finite.
+/// if a number is not finite; none is NaN, as the bounds are those of intervals.
 ///
 /// The products `a i`, `b j` must be exact in 53 bits. Then a bound d in plain arithmetic is off by at most `u A` for the sum, `A = |a| half_i +
 /// |b| half_j`, and `u |d|` for the difference: twice that of the largest is given away, which takes care of the few roundings in it. One

@@ -83,7 +83,7 @@ impl Sheet {
     /// Whether this sheet is proved to lie at or below another over the part.
     #[must_use]
     pub fn certainly_at_most(&self, o: &Self, part: [Interval; 2]) -> bool {
-        self.above_by(o, part) <= 0.0
+        self.is_finite() && o.is_finite() && self.above_by(o, part) <= 0.0
     }
 
     /// The sheet as a form, `u` and `v` given as forms.

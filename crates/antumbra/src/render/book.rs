@@ -49,8 +49,12 @@ impl Book {
             && more == [n; 3]
             && frame.lights.iter().all(of_light)
             && (self.hits.pixels(), self.primary_cost.len()) == (n, n)
-            && self.hits.holds()
-            && self.edges.iter().all(|(index, fringe)| *index < n && fringe.holds())
+    }
+
+    /// Whether what it knows of hits is that of pixels it has and of so many surfaces, each hit that of one pixel.
+    pub(super) fn holds(&self, surfaces: usize) -> bool {
+        let n = self.hits.pixels();
+        self.hits.holds(surfaces) && self.edges.iter().all(|(index, fringe)| *index < n && fringe.holds(surfaces))
     }
 
     /// Takes over what another book of the same picture knows, and tells whether it can: not where both know something of a pixel.

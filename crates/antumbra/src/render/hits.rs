@@ -103,9 +103,11 @@ impl Fringe {
         &self.seen
     }
 
-    /// Whether it has as many hits as rays that meet something.
-    pub(super) fn holds(&self) -> bool {
-        self.rays <= u32::BITS && self.met.count_ones() as usize == self.seen.len()
+    /// Whether it has as many hits as rays that meet something, on so many surfaces.
+    pub(super) fn holds(&self, surfaces: usize) -> bool {
+        let rays = (1..=u32::BITS).contains(&self.rays) && u64::from(self.met) >> self.rays == 0;
+        let mut seen = self.seen.iter().chain(self.thin.as_deref());
+        rays && self.met.count_ones() as usize == self.seen.len() && seen.all(|seen| seen.object() < surfaces)
     }
 }
 
@@ -175,11 +177,18 @@ impl Hits {
         }
     }
 
-    /// Whether every number is that of a hit: what is read from a file may be anything.
-    pub(super) fn holds(&self) -> bool {
+    /// Whether every number is that of a hit on one of so many surfaces, and no two pixels have the same: what is read from a file may be anything.
+    pub(super) fn holds(&self, surfaces: usize) -> bool {
         let hits = self.seen.len();
         let pieces = self.seen.holds() && self.starts.holds() && hits == self.starts.len();
-        pieces && self.places.iter().all(|place| *place as usize <= hits)
+        let mut taken = vec![false; hits];
+        let mut own = |place: u32| match place.checked_sub(1) {
+            Some(hit) => taken.get_mut(hit as usize).is_some_and(|taken| !std::mem::replace(taken, true)),
+            None => true,
+        };
+        pieces
+            && self.places.iter().all(|place| own(*place))
+            && self.seen.0.iter().flatten().all(|seen| seen.object() < surfaces)
     }
 
     /// Whether a pixel has a hit.
@@ -255,12 +264,12 @@ mod tests {
             _ => Some(k),
         };
         let found = |hits: &Hits, k: usize| hits.at(k).map(|seen| seen.point[0] as usize);
-        assert!(hits.holds() && (0..pixels).all(|k| found(&hits, k) == wanted(k)));
+        assert!(hits.holds(1) && (0..pixels).all(|k| found(&hits, k) == wanted(k)));
         hits.slide(100, pixels);
-        assert!(hits.holds() && (0..pixels - 100).all(|k| found(&hits, k) == wanted(k + 100)));
+        assert!(hits.holds(1) && (0..pixels - 100).all(|k| found(&hits, k) == wanted(k + 100)));
         assert!((pixels - 100..pixels).all(|k| hits.at(k).is_none()));
         hits.seen.0[0].pop();
-        assert!(!hits.holds(), "a piece that is not full");
+        assert!(!hits.holds(1), "a piece that is not full");
     }
 
     #[test]
@@ -282,10 +291,29 @@ mod tests {
                 assert!((0..3).all(|c| (seen.color()[c] - hit.color[c]).abs() < 1e-7));
                 assert_eq!(seen.proved(), hit.receiver.is_some());
             }
-            assert!(hits.receiver(from + 3).is_none() && hits.holds());
+            assert!(hits.receiver(from + 3).is_none() && hits.holds(8));
         };
         check(&hits, 3);
         hits.slide(2, 9);
         check(&hits, 1);
+        assert!(!hits.holds(7), "a surface that is none");
+        hits.places[8] = hits.places[1];
+        assert!(!hits.holds(8), "one hit for two pixels");
+        hits.places[8] = 4;
+        assert!(!hits.holds(8), "a hit that is none");
+    }
+
+    #[test]
+    fn grids_have_as_many_hits_as_rays_that_meet_something() {
+        let whole = || Fringe { rays: 16, met: 0b101, seen: vec![seen(0), seen(1)].into(), thin: None };
+        assert!(whole().holds(1) && !whole().holds(0));
+        for broken in [
+            Fringe { rays: 2, ..whole() },
+            Fringe { rays: 0, met: 1, seen: vec![seen(0)].into(), thin: None },
+            Fringe { rays: 33, ..whole() },
+            Fringe { met: 0b111, ..whole() },
+        ] {
+            assert!(!broken.holds(1), "{broken:?}");
+        }
     }
 }

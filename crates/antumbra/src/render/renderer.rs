@@ -149,7 +149,8 @@ impl Renderer {
         let mut renderer = Self::begin(scene, spec, run, 1, divided)?;
         let threads = renderer.crew.size();
         (renderer.part, renderer.stage, renderer.task.window) = (part, stage, window);
-        if part.number >= part.of || tiles > renderer.turns() {
+        let holds = book.holds(renderer.task.objects.len());
+        if part.number >= part.of || tiles > renderer.turns() || !holds {
             return Err(StateError::Damaged);
         }
         (renderer.next_tile, renderer.book) = (tiles, book);
@@ -182,6 +183,9 @@ impl Renderer {
     /// Those of [`Renderer::resume`]; [`StateError::Part`] where this part or that one is not done, or tiles are there already.
     pub fn join(&mut self, input: &mut (impl Read + Seek)) -> Result<(), StateError> {
         let Stopped { stage, window, divided, book, .. } = state::read(&self.task.scene, &self.spec, input)?;
+        if !book.holds(self.task.objects.len()) {
+            return Err(StateError::Damaged);
+        }
         let same = window.is_whole() && divided == self.divided;
         if [self.stage, stage] != [Stage::Parted; 2] || !same || !self.book.join(book) {
             return Err(StateError::Part);

@@ -246,6 +246,9 @@ fn divide([u, v]: [Interval; 2], halved: [bool; 2]) -> impl Iterator<Item = [Int
 ///
 /// The place `x` of `[-1, 1]` is `(lo + hi)/2 + (hi - lo)/2 x` of the range across: enclosed, cut to it. A part from the lower end
 /// of one enclosure to the upper end of the other holds all undecided places; both rests are settled all over.
+///
+/// The halves meet at a float, the middle as it is computed, where the band speaks of `b <= 0` and `b >= 0`. But forms over the cell hold for the symbol too that is
+/// 0 at that float and linear on either side of it: [`Affine::spanning`](antumbra_interval::affine::Affine::spanning) has that float as its centre, and gives away more than its distance from the middle.
 fn crop(node: &Node<Rest>, band: &Band, ledger: &mut Ledger<Rest>, parts: &mut Vec<Job>) {
     ledger.shaded();
     let (across, along) = (node.part[band.across], halves(node.part[1 - band.across]));
