@@ -1,9 +1,12 @@
 //! Frusta that graze a surface, and patches of blocks that one piece of it covers, against the true hits of a ball.
 use antumbra::eval::Workspace;
 use antumbra::expr::Formula;
-use antumbra::geom::{Box3, Camera, Clip, Film, Vec3};
+use antumbra::geom::{Beam, Box3, Camera, Clip, Film, Vec3};
 use antumbra::tape::Tape;
-use antumbra::trace::{Frusta, Frustum, Known, Patch, Sign, Surface, narrow, patches};
+use antumbra::trace::{
+    Bracket, Bracketed, Brackets, Cost, Effort, Frusta, Frustum, Known, Meeting, Patch, Sign, Surface, enclose, narrow,
+    patches,
+};
 use antumbra_interval::Interval;
 
 /// The patches of all blocks of 4 x 4 pixels, with their windows.
@@ -58,6 +61,63 @@ fn brackets_hold_the_first_hit_of_their_ray_and_are_narrow() {
     }
     assert!(covered > 50 && brackets >= 15 * covered, "{brackets} of {covered} blocks");
     assert!(widest < 0.02, "{widest}");
+}
+
+/// Where rays meet a surface of which brackets are proved; all of them are answered once.
+fn enclosed(text: &str, rays: &[Bracketed]) -> Vec<(Option<Meeting>, Cost)> {
+    let tape = Tape::compile(Formula::parse(text).unwrap().surface().formula()).unwrap();
+    let cube = Clip::Box(Box3([Interval::new(-3.0, 3.0); 3]));
+    let surfaces = [Surface { function: &tape, clip: cube, region: cube }];
+    let mut answers = vec![None; rays.len()];
+    let (mut scratch, mut work) = (Brackets::default(), Workspace::default());
+    enclose(&surfaces, rays, Effort::FINE, &mut scratch, &mut work, |k, meeting, cost| {
+        assert!(answers[k].replace((meeting, cost)).is_none(), "ray {k} again");
+    });
+    answers.into_iter().map(|answer| answer.expect("an answer")).collect()
+}
+
+#[test]
+fn rays_of_patches_are_enclosed_alike_in_any_company() {
+    const BALL: &str = "x^2 + y^2 + z^2 = 1";
+    let film = film(64);
+    let mut rays = Vec::new();
+    for ([column, row], _, patch) in all(BALL, &film) {
+        let [x, y] = film.window(column..column + 4, row..row + 4);
+        for (i, j) in (0..16).map(|k| (column + k % 4, row + k / 4)) {
+            let symbols = [film.column_symbol(x, i), film.row_symbol(y, j)];
+            let bracket = patch.and_then(|patch| patch.bracket(symbols));
+            rays.extend(bracket.map(|bracket| Bracketed { beam: film.ray(i, j), bracket }));
+        }
+    }
+    let found = enclosed(BALL, &rays);
+    let mut evaluations = 0;
+    for (ray, (meeting, cost)) in rays.iter().zip(&found) {
+        let meeting = meeting.expect("one root in each bracket");
+        assert!(meeting.t.is_subset_of(ray.bracket.t) && meeting.t.width() <= 1e-12 * meeting.t.hi());
+        assert_eq!((meeting.before, meeting.reason), (Some(Sign::Positive), None));
+        let (o, d) = (ray.beam.origin, ray.beam.direction.mid());
+        let (a, b, c) = (d.dot(d), o.dot(d), o.dot(o) - 1.0);
+        let t = (-b - (b * b - a * c).sqrt()) / a;
+        assert!((meeting.t.mid() - t).abs() < 1e-12, "{t}, {meeting:?}");
+        evaluations += cost.evaluations;
+    }
+    assert!(rays.len() > 1000 && evaluations < 3 * rays.len() as u64, "{evaluations} for {} rays", rays.len());
+    for (ray, together) in rays.iter().zip(&found).step_by(29) {
+        assert_eq!(enclosed(BALL, &[*ray]), [*together]);
+    }
+}
+
+#[test]
+fn the_first_of_several_roots_is_not_guessed() {
+    let direction = Vec3::new(1.0, 0.0, 0.0).to_box();
+    let beam = Beam { origin: Vec3::default(), direction };
+    let asked = |lo: f64, hi: f64, before: Sign| {
+        let bracket = Bracket { surface: 0, t: Interval::new(lo, hi), before };
+        enclosed("(x - 1)(x - 2)(x - 3) = 0", &[Bracketed { beam, bracket }])[0].0
+    };
+    assert_eq!(asked(0.25, 3.75, Sign::Negative), None, "three roots");
+    let second = asked(1.75, 2.25, Sign::Positive).unwrap();
+    assert!(second.t.contains(2.0) && second.t.width() < 1e-11, "{second:?}");
 }
 
 #[test]
