@@ -15,7 +15,7 @@
 //!
 //! Any line is sound; a tangent at the strip's middle makes `[R-, R+]` as thin as the curvature allows.
 //!
-//! Curves that turn back within the square have two lines in a strip, one at each [branch](branches).
+//! Curves that turn back within the square have two lines in a strip, one at each branch (`branches`).
 mod band;
 mod branches;
 
